@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What a caller can choose about a world.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <talus/types.h>
+
+namespace talus {
+
+/// Where the step runs.
+enum class DeviceKind : std::uint32_t {
+    Auto,   ///< the GPU where there is a real one, otherwise the CPU
+    Gpu,    ///< the whole step in OpenGL compute shaders
+    Cpu,    ///< the whole step on the CPU's threads
+    Hybrid, ///< broad and narrow phase on the GPU, resolution on the CPU
+};
+
+/// Which OpenGL context the GPU device uses.
+enum class GlContext : std::uint32_t {
+    Own,     ///< one of its own, headless through EGL; no window system needed
+    Current, ///< the caller's, current on the calling thread now and in every later call on the world
+};
+
+enum class BroadPhase : std::uint32_t {
+    SweepAndPrune, ///< sort along the axis of largest spread, then sweep (thesis, section 3.2)
+    Brute,         ///< every pair (thesis, algorithm 1): the oracle
+};
+
+enum class Stabilisation : std::uint32_t {
+    Soft,      ///< sub-steps with soft contacts and a relax pass
+    Baumgarte, ///< one step, many iterations, velocity bias β/Δt · d (thesis, equation 3.17)
+};
+
+/// What may change while a world runs.
+struct Settings {
+    Vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s²
+    float dt = 1.0f / 60.0f;          ///< s, the length of one step
+    Stabilisation stabilisation = Stabilisation::Soft;
+    std::uint32_t substeps = 4;       ///< soft: sub-steps a step; not used by Baumgarte
+    std::uint32_t iterations = 1;     ///< solver passes: a sub-step (soft) or a step (Baumgarte; set about 10 there)
+    float contact_hertz = 30.0f;         ///< soft: stiffness of a contact, Hz; capped at a quarter of the sub-step rate
+    float contact_damping_ratio = 10.0f; ///< soft: damping of a contact
+    float contact_push_speed = 3.0f;     ///< m/s; the fastest that overlap is pushed apart
+    float baumgarte = 0.2f;              ///< β of equation 3.17, 0 to 1
+    float restitution_threshold = 1.0f;  ///< m/s; slower impacts do not bounce
+    float max_linear_speed = 500.0f;     ///< m/s; bodies are held to it
+    float max_angular_speed = 200.0f;    ///< rad/s
+    BroadPhase broad_phase = BroadPhase::SweepAndPrune;
+};
+
+/// How many of each thing the first buffers have room for. They grow as needed, so this only saves the growing.
+struct Capacities {
+    std::uint32_t bodies = 0;
+    std::uint32_t pairs = 0;
+    std::uint32_t colours = 0;
+};
+
+/// What is fixed when a world is made.
+struct WorldOptions {
+    DeviceKind device = DeviceKind::Auto;
+    GlContext gl_context = GlContext::Own;
+    std::uint32_t threads = 0; ///< of the CPU device; 0: as many as the machine has
+    bool profile = false;      ///< measure every stage (see StepReport::stage_ms); costs a little time
+    Capacities capacities;
+};
+
+} // namespace talus

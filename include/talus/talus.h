@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// The whole public API.
+#pragma once
+
+#include <talus/recording.h>
+#include <talus/settings.h>
+#include <talus/types.h>
+#include <talus/world.h>

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// The values that pass between a program and Talus. SI units: metres, kilograms, seconds, radians. y is up,
+// frames are right-handed.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace talus {
+
+struct Vec3 {
+    float x = 0.0f, y = 0.0f, z = 0.0f;
+    friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+/// A rotation as a unit quaternion; the identity unless said otherwise.
+struct Quat {
+    float x = 0.0f, y = 0.0f, z = 0.0f, w = 1.0f;
+    friend bool operator==(const Quat&, const Quat&) = default;
+};
+
+/// Where a body is: its centre of mass (m) and the rotation from body axes to world axes.
+struct Pose {
+    Vec3 position;
+    Quat rotation;
+    friend bool operator==(const Pose&, const Pose&) = default;
+};
+
+/// How a body moves, in world axes: linear in m/s, angular in rad/s.
+struct Velocity {
+    Vec3 linear;
+    Vec3 angular;
+    friend bool operator==(const Velocity&, const Velocity&) = default;
+};
+
+enum class BodyKind : std::uint32_t {
+    Static,    ///< never moves; infinite mass
+    Rigid,     ///< moved by forces and contacts; finite mass
+    Kinematic, ///< moved by its own velocity (and gravity, if asked for) alone; contacts see an infinite mass
+};
+
+/// A box by its edge lengths along the body's axes (m).
+struct Box {
+    Vec3 size{1.0f, 1.0f, 1.0f};
+};
+
+struct Sphere {
+    float radius = 0.5f; ///< m
+};
+
+using Shape = std::variant<Box, Sphere>;
+
+/// How the values of two touching bodies become the contact's one. Where the two bodies ask for different rules,
+/// the one listed first wins.
+enum class Combine : std::uint32_t { Average, Minimum, Maximum, Multiply };
+
+struct Material {
+    float friction = 0.5f;    ///< Coulomb's coefficient, 0 or more
+    float restitution = 0.0f; ///< 0: does not bounce; 1: leaves with the speed that it came with
+    Combine friction_combine = Combine::Average;
+    Combine restitution_combine = Combine::Maximum;
+};
+
+/// What `World::add` needs to know of a body.
+struct BodyDefinition {
+    BodyKind kind = BodyKind::Rigid;
+    Shape shape = Box{};
+    Pose pose;
+    Velocity velocity;
+    float density = 1000.0f;            ///< kg/m³; used where `mass` is not given
+    std::optional<float> mass;          ///< kg
+    std::optional<Vec3> inertia;        ///< principal moments about the body's axes, kg·m²; from the shape by default
+    std::optional<float> gravity_scale; ///< factor on the world's gravity; default 1, for a kinematic body 0
+    float linear_damping = 0.0f;        ///< 1/s: velocity decays as exp(−damping · t)
+    float angular_damping = 0.0f;       ///< 1/s
+    Material material;
+};
+
+/// Names a body of one world. Stays invalid for ever once the body is removed, also when its index is used again.
+struct BodyId {
+    std::uint32_t index = UINT32_MAX;
+    std::uint32_t generation = 0;
+    friend bool operator==(const BodyId&, const BodyId&) = default;
+};
+
+/// Two bodies whose bounding boxes overlap: the broad phase's result (the thesis's CollisionPair).
+struct CollisionPair {
+    BodyId a, b;
+};
+
+/// One touching point between two bodies, as the last step solved it.
+struct ContactPoint {
+    Vec3 position;              ///< world space, midway between the two surfaces (m)
+    float separation = 0.0f;    ///< m; negative where the bodies overlap
+    float normal_impulse = 0.0f;///< N·s, over the last sub-step
+};
+
+/// All that happens between two touching bodies: up to four points that share a normal (the thesis's ContactManifold).
+struct Contact {
+    BodyId a, b;
+    Vec3 normal; ///< unit, world space, from a to b
+    std::vector<ContactPoint> points;
+};
+
+/// Every error that Talus reports: what was wrong, where, and what is allowed. The world is as it was before the call.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace talus
+
+template <> struct std::hash<talus::BodyId> {
+    std::size_t operator()(const talus::BodyId& id) const noexcept {
+        return std::hash<std::uint64_t>{}((std::uint64_t{id.generation} << 32) | id.index);
+    }
+};

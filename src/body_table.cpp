@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "body_table.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace talus::engine {
+namespace {
+
+struct MassProperties {
+    float mass;   // kg
+    Vec3 inertia; // kg m^2, about the shape's own axes
+};
+
+MassProperties mass_properties(const BodyDefinition& definition) {
+    MassProperties result{};
+    if (const auto* box = std::get_if<Box>(&definition.shape)) {
+        const auto [x, y, z] = box->size;
+        result.mass = definition.mass.value_or(definition.density * x * y * z);
+        const float twelfth = result.mass / 12.0f;
+        result.inertia = {twelfth * (y * y + z * z), twelfth * (x * x + z * z), twelfth * (x * x + y * y)};
+    } else {
+        const float radius = std::get<Sphere>(definition.shape).radius;
+        const float volume = 4.18879020f * radius * radius * radius; // 4/3 pi r^3
+        result.mass = definition.mass.value_or(definition.density * volume);
+        const float moment = 0.4f * result.mass * radius * radius;
+        result.inertia = {moment, moment, moment};
+    }
+    result.inertia = definition.inertia.value_or(result.inertia);
+    return result;
+}
+
+BodyShape pack_shape(const Shape& shape, BodyKind kind) {
+    const uint kind_bits = static_cast<uint>(kind) << 8;
+    if (const auto* box = std::get_if<Box>(&shape)) return {to_glm(box->size) * 0.5f, k_shape_box | kind_bits};
+    return {vec3(std::get<Sphere>(shape).radius), k_shape_sphere | kind_bits};
+}
+
+} // namespace
+
+vec3 to_glm(Vec3 v) { return {v.x, v.y, v.z}; }
+vec4 to_glm(Quat q) { return {q.x, q.y, q.z, q.w}; }
+Vec3 from_glm(vec3 v) { return {v.x, v.y, v.z}; }
+
+Pose from_record(const BodyPose& pose) {
+    return {from_glm(pose.position), {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}};
+}
+
+Velocity from_record(const BodyVelocity& velocity) { return {from_glm(velocity.linear), from_glm(velocity.angular)}; }
+
+uint pack_combine(const Material& material) {
+    return static_cast<uint>(material.friction_combine) | static_cast<uint>(material.restitution_combine) << 8;
+}
+
+Material unpack_material(const BodyProperties& properties) {
+    return {properties.friction, properties.restitution, static_cast<Combine>(properties.combine & 255u),
+            static_cast<Combine>(properties.combine >> 8)};
+}
+
+Shape unpack_shape(const BodyShape& shape) {
+    if ((shape.type & 255u) == k_shape_box) return Box{from_glm(shape.half_extents * 2.0f)};
+    return Sphere{shape.half_extents.x};
+}
+
+BodyId BodyTable::add(const BodyDefinition& definition) {
+    uint slot;
+    if (free_slots.empty()) {
+        slot = slot_count();
+        poses.emplace_back();
+        velocities.emplace_back();
+        shapes.emplace_back();
+        properties.emplace_back();
+        loads.emplace_back();
+        masses.emplace_back();
+        inertias.emplace_back();
+        generations.push_back(0);
+        present.push_back(0);
+        dirty.push_back(0);
+    } else {
+        slot = free_slots.back();
+        free_slots.pop_back();
+    }
+
+    const bool rigid = definition.kind == BodyKind::Rigid;
+    const auto [mass, inertia] = mass_properties(definition);
+    const Material& material = definition.material;
+    masses[slot] = rigid ? mass : std::numeric_limits<float>::infinity();
+    inertias[slot] = inertia;
+    poses[slot] = {to_glm(definition.pose.position), 0, to_glm(definition.pose.rotation)};
+    velocities[slot] = {to_glm(definition.velocity.linear), rigid ? 1.0f / mass : 0.0f,
+                        to_glm(definition.velocity.angular), 0.0f};
+    shapes[slot] = pack_shape(definition.shape, definition.kind);
+    properties[slot] = {rigid ? 1.0f / to_glm(inertia) : vec3(0.0f),
+                        velocities[slot].inverse_mass,
+                        definition.gravity_scale.value_or(rigid ? 1.0f : 0.0f),
+                        definition.linear_damping,
+                        definition.angular_damping,
+                        material.friction,
+                        material.restitution,
+                        pack_combine(material),
+                        0,
+                        0};
+    loads[slot] = {};
+    if (material.restitution > 0.0f) ++bouncing_count;
+    present[slot] = 1;
+    ++present_count;
+    mark(slot, k_dirty_all);
+    return id_of(slot);
+}
+
+void BodyTable::remove(BodyId id) {
+    const uint slot = id.index;
+    if (properties[slot].restitution > 0.0f) --bouncing_count;
+    shapes[slot].type = k_kind_absent << 8;
+    velocities[slot] = {};
+    present[slot] = 0;
+    ++generations[slot];
+    --present_count;
+    resting_slots.push_back(slot);
+    mark(slot, k_dirty_shape | k_dirty_velocity);
+}
+
+bool BodyTable::contains(BodyId id) const noexcept {
+    return id.index < present.size() && present[id.index] != 0 && generations[id.index] == id.generation;
+}
+
+void BodyTable::recycle() {
+    // Lowest slot first, so that what a program gets does not depend on the order in which it removed.
+    free_slots.insert(free_slots.end(), resting_slots.begin(), resting_slots.end());
+    if (!resting_slots.empty()) std::ranges::sort(free_slots, std::greater{});
+    resting_slots.clear();
+}
+
+void BodyTable::mark(uint slot, std::uint8_t what) {
+    if (dirty[slot] == 0) changed.push_back(slot);
+    dirty[slot] |= what;
+}
+
+std::vector<std::pair<uint, std::uint8_t>> BodyTable::take_changes() {
+    std::ranges::sort(changed);
+    std::vector<std::pair<uint, std::uint8_t>> result;
+    result.reserve(changed.size());
+    for (const uint slot : changed) {
+        result.emplace_back(slot, dirty[slot]);
+        dirty[slot] = 0;
+    }
+    changed.clear();
+    return result;
+}
+
+} // namespace talus::engine

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The host's record of all bodies: who is there, and a copy of what the device holds of them.
+#pragma once
+
+#include <vector>
+
+#include <talus/types.h>
+
+#include "state/buffers.h"
+
+namespace talus::engine {
+
+/// Which of a body's records the host has changed and the device does not know yet.
+enum Dirty : std::uint8_t {
+    k_dirty_pose = 1,
+    k_dirty_velocity = 2,
+    k_dirty_shape = 4,
+    k_dirty_properties = 8,
+    k_dirty_load = 16,
+    k_dirty_all = 31,
+};
+
+class BodyTable {
+public:
+    /// A checked definition becomes a body.
+    BodyId add(const BodyDefinition&);
+    void remove(BodyId);
+    bool contains(BodyId) const noexcept;
+
+    /// Slots of removed bodies may be used again from now on. Called once the step after their removal has begun: until
+    /// then the last step's manifolds still speak of them.
+    void recycle();
+
+    uint slot_count() const { return static_cast<uint>(poses.size()); }
+    std::size_t body_count() const { return present_count; }
+    bool is_present(uint slot) const { return present[slot] != 0; }
+    BodyId id_of(uint slot) const { return {slot, generations[slot]}; }
+    BodyKind kind_of(uint slot) const { return static_cast<BodyKind>(shapes[slot].type >> 8); }
+
+    void mark(uint slot, std::uint8_t what);
+    /// The changed slots in ascending order, each with its Dirty bits; forgets them.
+    std::vector<std::pair<uint, std::uint8_t>> take_changes();
+    bool has_changes() const { return !changed.empty(); }
+
+    // The device's records, one a slot.
+    std::vector<BodyPose> poses;
+    std::vector<BodyVelocity> velocities;
+    std::vector<BodyShape> shapes;
+    std::vector<BodyProperties> properties;
+    std::vector<BodyLoad> loads;
+    // What only the host knows.
+    std::vector<float> masses;   ///< kg; infinity where contacts cannot push the body
+    std::vector<Vec3> inertias;  ///< principal moments, kg·m²
+    uint bouncing_count = 0;     ///< bodies with a restitution above 0
+
+private:
+    std::vector<std::uint32_t> generations;
+    std::vector<std::uint8_t> present;
+    std::vector<std::uint8_t> dirty;
+    std::vector<uint> changed;
+    std::vector<uint> free_slots;
+    std::vector<uint> resting_slots;
+    std::size_t present_count = 0;
+};
+
+vec3 to_glm(Vec3);
+vec4 to_glm(Quat);
+Vec3 from_glm(vec3);
+Pose from_record(const BodyPose&);
+Velocity from_record(const BodyVelocity&);
+uint pack_combine(const Material&);
+Material unpack_material(const BodyProperties&);
+Shape unpack_shape(const BodyShape&);
+
+} // namespace talus::engine

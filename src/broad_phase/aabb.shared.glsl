@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// World bounding boxes (thesis, section 3.2).
+
+// How far beyond its shape a body looks for contacts (m). Bodies that cross much of their own size in a step look as
+// far as they move, so that they cannot pass through what they would hit.
+inline float contact_margin(BodyVelocity velocity, BodyShape shape, Parameters p)
+{
+    precise float travel = length3(velocity.linear) * p.dt;
+    vec3 half_size = shape.half_extents;
+    precise float smallest = 0.25f * min(half_size.x, min(half_size.y, half_size.z));
+    precise float margin = 0.5f * p.speculative_distance + (travel > smallest ? travel : 0.0f);
+    return margin;
+}
+
+inline bool is_present(BodyShape shape) { return (shape.type >> 8) != k_kind_absent; }
+inline bool is_movable(BodyShape shape) { return (shape.type >> 8) == k_kind_rigid; }
+
+inline Aabb compute_aabb(BodyPose pose, BodyVelocity velocity, BodyShape shape, Parameters p)
+{
+    vec3 extent = shape.half_extents;
+    if ((shape.type & 255u) == k_shape_box) {
+        // The extent along a world axis sums what each box axis contributes to it.
+        Axes axes = rotation_axes(pose.rotation);
+        precise vec3 box_extent = abs(axes.x) * extent.x + abs(axes.y) * extent.y + abs(axes.z) * extent.z;
+        extent = box_extent;
+    }
+    float margin = contact_margin(velocity, shape, p);
+    precise vec3 reach = extent + vec3(margin, margin, margin);
+    precise vec3 lower = pose.position - reach;
+    precise vec3 upper = pose.position + reach;
+    Aabb box;
+    box.lower = lower;
+    box.upper = upper;
+    box.margin = margin;
+    box.movable = is_movable(shape) ? 1u : 0u;
+    if (!is_present(shape)) { // overlaps nothing
+        box.lower = vec3(3.0e38f, 3.0e38f, 3.0e38f);
+        box.upper = vec3(-3.0e38f, -3.0e38f, -3.0e38f);
+    }
+    return box;
+}
+
+// Whether two boxes overlap (thesis, algorithm 2; touching counts, from both sides alike), and at least one of the bodies
+// can be pushed.
+inline bool is_candidate(Aabb a, Aabb b)
+{
+    return a.lower.x <= b.upper.x && a.upper.x >= b.lower.x && a.lower.y <= b.upper.y && a.upper.y >= b.lower.y &&
+           a.lower.z <= b.upper.z && a.upper.z >= b.lower.z && (a.movable | b.movable) != 0u;
+}
+
+inline Pair make_pair(uint body_1, uint body_2)
+{
+    Pair pair;
+    pair.body_a = min(body_1, body_2);
+    pair.body_b = max(body_1, body_2);
+    return pair;
+}

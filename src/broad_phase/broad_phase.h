@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Broad phase: world bounding boxes -> candidate pairs (thesis, section 3.2).
+#pragma once
+
+#include "device/device.h"
+
+namespace talus::engine {
+
+struct StepPlan;
+
+/// Fills Pairs, and Counters[k_counter_pair_count] with their number.
+void broad_phase(Device&, const StepPlan&);
+
+extern const Kernel update_aabbs;
+extern const Kernel measure_spread;
+extern const Kernel choose_axis;
+extern const Kernel write_sort_keys;
+extern const Kernel sweep_pairs;
+extern const Kernel test_all_pairs;
+extern const Kernel plan_pairs;
+
+} // namespace talus::engine

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// One invocation: how many pairs there are, whether they fit, and the launches that treat them.
+// Reads: Counters.
+// Writes: Counters, Dispatches.
+// Needs: a barrier after the scan of the pair counts.
+// Overflow: says so in k_counter_did_not_fit, which keeps this step and all after it from changing the state.
+#include "state/dispatch.shared.glsl"
+
+layout(local_size_x = 1) in;
+
+layout(std430) buffer Counters { uint counters[]; };
+layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
+
+void main()
+{
+    uint demand = counters[k_counter_pair_demand];
+    uint pair_count = min(demand, parameters.pair_capacity);
+    if (demand > parameters.pair_capacity) counters[k_counter_did_not_fit] |= k_fit_pairs;
+    counters[k_counter_pair_count] = pair_count;
+    counters[k_counter_manifold_count] = 0u;
+    counters[k_counter_contact_count] = 0u;
+    counters[k_counter_uncoloured] = 0u;
+    dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
+    dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);
+    dispatches[k_dispatch_old_pairs] = groups_for(counters[k_counter_old_pair_count], k_group_size);
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of plan_pairs.comp.glsl.
+#include "broad_phase/broad_phase.h"
+#include "device/cpu/cpu_state.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void plan_pairs_on_cpu(CpuState& state, const Launch&) {
+    const Array<uint>& counters = state.counters;
+    const uint demand = counters[k_counter_pair_demand];
+    const uint pair_count = min(demand, state.parameters.pair_capacity);
+    if (demand > state.parameters.pair_capacity) counters[k_counter_did_not_fit] |= k_fit_pairs;
+    counters[k_counter_pair_count] = pair_count;
+    counters[k_counter_manifold_count] = 0;
+    counters[k_counter_contact_count] = 0;
+    counters[k_counter_uncoloured] = 0;
+    state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
+    state.dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);
+    state.dispatches[k_dispatch_old_pairs] = groups_for(counters[k_counter_old_pair_count], k_group_size);
+}
+
+const Kernel plan_pairs{"broad_phase/plan_pairs", plan_pairs_on_cpu, 1};
+
+} // namespace talus::engine

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body in sorted order: sweeps the bodies after it until their boxes begin beyond its own end, and
+// then all large ones (thesis, algorithm 2). Run twice: args.x = 0 counts, 1 writes at the scanned offsets.
+// Reads: Aabbs, SweepAxes, SortKeys, SortValues.
+// Writes: PairCounts (counting) or Pairs (writing), in the order of the sort.
+// Needs: a barrier after the sort; for writing, after the scan of the counts.
+// Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/sweep_axis.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
+layout(std430) readonly buffer SortKeys { uint sort_keys[]; };
+layout(std430) readonly buffer SortValues { uint sort_values[]; };
+layout(std430) buffer PairCounts { uint pair_counts[]; };
+layout(std430) writeonly buffer Pairs { Pair pairs[]; };
+
+// Where the large boxes begin in the order of the sort.
+uint first_large_place()
+{
+    uint lower = 0u;
+    uint upper = parameters.body_count;
+    while (lower < upper) {
+        uint middle = (lower + upper) / 2u;
+        if (sort_keys[middle] < k_large_key)
+            lower = middle + 1u;
+        else
+            upper = middle;
+    }
+    return lower;
+}
+
+void main()
+{
+    uint place = item_index();
+    if (place >= parameters.body_count) return;
+    bool writing = args.x == 1u;
+    uint offset = writing ? pair_counts[place] : 0u;
+    uint found = 0u;
+    uint body = sort_values[place];
+    Aabb box = aabbs[body];
+    uint axis = sweep_axes[0].axis;
+    uint first_large = first_large_place();
+    // The sweep ends at the first box beyond this one's end, and goes on with the large boxes.
+    bool sweeping = place < first_large;
+    uint i = place + 1u;
+    while (i < parameters.body_count && sort_keys[i] != k_absent_key) {
+        uint other = sort_values[i];
+        Aabb other_box = aabbs[other];
+        if (sweeping && (i >= first_large || component(other_box.lower, axis) > component(box.upper, axis))) {
+            sweeping = false;
+            i = first_large;
+            continue;
+        }
+        if (is_candidate(box, other_box)) {
+            if (writing && offset + found < parameters.pair_capacity) pairs[offset + found] = make_pair(body, other);
+            found += 1u;
+        }
+        i += 1u;
+    }
+    if (!writing) pair_counts[place] = found;
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of sweep_pairs.comp.glsl.
+#include <algorithm>
+
+#include "broad_phase/broad_phase.h"
+#include "device/cpu/cpu_state.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void sweep_pairs_on_cpu(CpuState& state, const Launch& launch) {
+    const uint body_count = state.parameters.body_count;
+    const bool writing = launch.args[0] == 1;
+    const uint axis = state.sweep_axes[0].axis;
+    const uint* const keys = state.sort_keys.data;
+    const auto first_large = static_cast<uint>(std::lower_bound(keys, keys + body_count, k_large_key) - keys);
+    const auto last = static_cast<uint>(std::lower_bound(keys, keys + body_count, k_absent_key) - keys);
+
+    const auto sweep = [&](uint place) {
+        const uint body = state.sort_values[place];
+        const Aabb box = state.aabbs[body];
+        const uint offset = writing ? state.pair_counts[place] : 0;
+        uint found = 0;
+        const auto test = [&](uint other) {
+            if (!is_candidate(box, state.aabbs[other])) return;
+            if (writing && offset + found < state.parameters.pair_capacity)
+                state.pairs[offset + found] = make_pair(body, other);
+            ++found;
+        };
+        for (uint i = place + 1; i < first_large; ++i) {
+            const uint other = state.sort_values[i];
+            if (component(state.aabbs[other].lower, axis) > component(box.upper, axis)) break;
+            test(other);
+        }
+        for (uint i = std::max(first_large, place + 1); i < last; ++i)
+            test(state.sort_values[i]);
+        if (!writing) state.pair_counts[place] = found;
+    };
+    state.parallel(body_count, sweep);
+}
+
+const Kernel sweep_pairs{"broad_phase/sweep_pairs", sweep_pairs_on_cpu};
+
+} // namespace talus::engine

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body slot: its world bounding box.
+// Reads: Poses, Velocities, Shapes.
+// Writes: Aabbs.
+// Needs: nothing.
+// Overflow: none.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Poses { BodyPose poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) writeonly buffer Aabbs { Aabb aabbs[]; };
+
+void main()
+{
+    uint body = item_index();
+    if (body >= parameters.body_count) return;
+    aabbs[body] = compute_aabb(poses[body], velocities[body], shapes[body], parameters);
+}

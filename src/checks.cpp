@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "checks.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace talus::engine {
+namespace {
+
+constexpr float k_largest_coordinate = 1.0e6f; // m: beyond it floats are coarser than the contact margin
+constexpr float k_largest_size = 1.0e5f;       // m
+constexpr float k_smallest_size = 1.0e-4f;     // m
+constexpr float k_largest_value = 1.0e12f;     // forces, masses, inertia: their squares still fit a float
+
+[[noreturn]] void refuse(const std::string& where, const std::string& message) { throw Error(where + ": " + message); }
+
+void check_range(float value, float lowest, float highest, const std::string& where, const char* what,
+                 const char* unit) {
+    if (value >= lowest && value <= highest) return;
+    refuse(where, fmt::format("{} is {}{}; allowed is {} to {}{}", what, value, unit, lowest, highest, unit));
+}
+
+void check_positive(float value, const std::string& where, const char* what, const char* unit) {
+    if (value > 0.0f && value <= k_largest_value) return;
+    refuse(where, fmt::format("{} is {}{}; it must be above 0 and at most {}{}", what, value, unit, k_largest_value,
+                              unit));
+}
+
+void check_size(float value, const std::string& where, const char* what) {
+    check_range(value, k_smallest_size, k_largest_size, where, what, " m");
+}
+
+void check_combine(Combine rule, const std::string& where, const char* what) {
+    if (static_cast<std::uint32_t>(rule) > static_cast<std::uint32_t>(Combine::Multiply))
+        refuse(where, fmt::format("{} is {}, which is no rule of Combine", what, static_cast<std::uint32_t>(rule)));
+}
+
+void check_shape(const Shape& shape, const std::string& where) {
+    if (const auto* box = std::get_if<Box>(&shape)) {
+        check_size(box->size.x, where, "size.x of the box");
+        check_size(box->size.y, where, "size.y of the box");
+        check_size(box->size.z, where, "size.z of the box");
+    } else {
+        check_size(std::get<Sphere>(shape).radius, where, "radius of the sphere");
+    }
+}
+
+} // namespace
+
+std::string to_words(BodyKind kind) {
+    switch (kind) {
+    case BodyKind::Static: return "static";
+    case BodyKind::Rigid: return "rigid";
+    case BodyKind::Kinematic: return "kinematic";
+    }
+    return "of unknown kind";
+}
+
+void check_finite(float value, const std::string& where, const char* what) {
+    if (!std::isfinite(value)) refuse(where, fmt::format("{} is {}; it must be a finite number", what, value));
+    if (std::abs(value) > k_largest_value)
+        refuse(where, fmt::format("{} is {}; at most {} is allowed", what, value, k_largest_value));
+}
+
+void check_finite(Vec3 v, const std::string& where, const char* what) {
+    check_finite(v.x, where, fmt::format("{}.x", what).c_str());
+    check_finite(v.y, where, fmt::format("{}.y", what).c_str());
+    check_finite(v.z, where, fmt::format("{}.z", what).c_str());
+}
+
+Pose checked_pose(const Pose& pose, const std::string& where) {
+    const float limit = k_largest_coordinate;
+    check_range(pose.position.x, -limit, limit, where, "position.x", " m");
+    check_range(pose.position.y, -limit, limit, where, "position.y", " m");
+    check_range(pose.position.z, -limit, limit, where, "position.z", " m");
+    const auto [x, y, z, w] = pose.rotation;
+    const float length = std::sqrt(x * x + y * y + z * z + w * w);
+    if (!(std::abs(length - 1.0f) < 1.0e-2f))
+        refuse(where, fmt::format("rotation ({}, {}, {}, {}) has the length {}; a unit quaternion is wanted", x, y, z, w,
+                                  length));
+    return {pose.position, {x / length, y / length, z / length, w / length}};
+}
+
+void check_velocity(const Velocity& velocity, const std::string& where) {
+    check_finite(velocity.linear, where, "linear velocity");
+    check_finite(velocity.angular, where, "angular velocity");
+}
+
+void check_material(const Material& material, const std::string& where) {
+    check_range(material.friction, 0.0f, 1.0e6f, where, "friction", "");
+    check_range(material.restitution, 0.0f, 1.0f, where, "restitution", "");
+    check_combine(material.friction_combine, where, "friction_combine");
+    check_combine(material.restitution_combine, where, "restitution_combine");
+}
+
+BodyDefinition checked_definition(const BodyDefinition& definition, const std::string& where) {
+    if (static_cast<std::uint32_t>(definition.kind) > static_cast<std::uint32_t>(BodyKind::Kinematic))
+        refuse(where, fmt::format("kind is {}; allowed are Static, Rigid and Kinematic",
+                                  static_cast<std::uint32_t>(definition.kind)));
+    check_shape(definition.shape, where);
+    BodyDefinition checked = definition;
+    checked.pose = checked_pose(definition.pose, where);
+    check_velocity(definition.velocity, where);
+    if (definition.kind == BodyKind::Static && definition.velocity != Velocity{})
+        refuse(where, "a static body cannot have a velocity; make it kinematic");
+    if (definition.mass)
+        check_positive(*definition.mass, where, "mass", " kg");
+    else
+        check_positive(definition.density, where, "density", " kg/m³");
+    if (definition.inertia) {
+        check_positive(definition.inertia->x, where, "inertia.x", " kg·m²");
+        check_positive(definition.inertia->y, where, "inertia.y", " kg·m²");
+        check_positive(definition.inertia->z, where, "inertia.z", " kg·m²");
+    }
+    if (definition.gravity_scale) check_finite(*definition.gravity_scale, where, "gravity_scale");
+    check_range(definition.linear_damping, 0.0f, 1.0e6f, where, "linear_damping", " 1/s");
+    check_range(definition.angular_damping, 0.0f, 1.0e6f, where, "angular_damping", " 1/s");
+    check_material(definition.material, where);
+    return checked;
+}
+
+void check_settings(const Settings& settings) {
+    const std::string where = "settings";
+    check_finite(settings.gravity, where, "gravity");
+    check_range(settings.dt, 1.0e-6f, 1.0f, where, "dt", " s");
+    check_range(static_cast<float>(settings.substeps), 1.0f, 1000.0f, where, "substeps", "");
+    check_range(static_cast<float>(settings.iterations), 1.0f, 10000.0f, where, "iterations", "");
+    check_range(settings.contact_hertz, 1.0e-3f, 1.0e5f, where, "contact_hertz", " Hz");
+    check_range(settings.contact_damping_ratio, 0.0f, 1.0e3f, where, "contact_damping_ratio", "");
+    check_range(settings.contact_push_speed, 0.0f, 1.0e4f, where, "contact_push_speed", " m/s");
+    check_range(settings.baumgarte, 0.0f, 1.0f, where, "baumgarte", "");
+    check_range(settings.restitution_threshold, 0.0f, 1.0e4f, where, "restitution_threshold", " m/s");
+    check_range(settings.max_linear_speed, 1.0e-3f, 1.0e5f, where, "max_linear_speed", " m/s");
+    check_range(settings.max_angular_speed, 1.0e-3f, 1.0e5f, where, "max_angular_speed", " rad/s");
+    if (settings.broad_phase > BroadPhase::Brute)
+        refuse(where, "broad_phase is none of SweepAndPrune and Brute");
+    if (settings.stabilisation > Stabilisation::Baumgarte)
+        refuse(where, "stabilisation is none of Soft and Baumgarte");
+}
+
+} // namespace talus::engine

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What all devices share.
+#include "device/device.h"
+
+#include <cstring>
+
+namespace talus::engine {
+
+BufferId Launch::bound(const char* block) const {
+    for (const Binding& binding : bindings)
+        if (std::strcmp(binding.block, block) == 0) return binding.buffer;
+
+    std::string known;
+    for (const Binding& binding : bindings)
+        known += (known.empty() ? "" : ", ") + std::string(binding.block);
+    throw Error("kernel " + std::string(kernel.path) + " was launched without a buffer for its block " + block +
+                "; the launch binds " + (known.empty() ? "no block" : known));
+}
+
+} // namespace talus::engine

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// A device owns the state's buffers and runs kernels on them. Kernels run in the order in which they are given, each
+// seeing all that the ones before it wrote. The step knows nothing else of a device.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <talus/world.h>
+
+#include "state/buffers.h"
+#include "state/stages.h"
+
+namespace talus::engine {
+
+enum class Role { State, Result, Scratch };
+
+enum class BufferId : uint {
+#define X(block, field, element, layout, role) block,
+    TALUS_BUFFERS(X)
+#undef X
+        count
+};
+
+struct BufferInfo {
+    const char* block;  ///< name of the GLSL block
+    const char* field;  ///< name in CpuState
+    const char* layout; ///< a letter a word: f float, u uint
+    std::size_t stride; ///< bytes of an element
+    Role role;
+};
+
+inline constexpr std::array<BufferInfo, static_cast<std::size_t>(BufferId::count)> k_buffers{{
+#define X(block, field, element, layout, role) {#block, #field, layout, sizeof(element), Role::role},
+    TALUS_BUFFERS(X)
+#undef X
+}};
+
+/// A parameterised kernel's block and the buffer that it stands for in this launch (primitives have such blocks).
+struct Binding {
+    const char* block;
+    BufferId buffer;
+};
+
+struct Launch;
+struct CpuState;
+
+/// A compute shader, and the function that does the same work on the CPU.
+struct Kernel {
+    const char* path; ///< below src/, without .comp.glsl: "broad_phase/update_aabbs"
+    void (*twin)(CpuState&, const Launch&);
+    uint items_a_group = k_group_size; ///< items that one group treats, for launches that count items
+};
+
+/// How often a kernel runs.
+struct Launch {
+    const Kernel& kernel;
+    /// Items, known on the host; or, where `slot` is not k_none, the entry of Dispatches to take the groups from.
+    uint items = 0;
+    uint slot = k_none;
+    /// The uniform `args` of the kernel.
+    std::array<uint, 4> args{};
+    std::initializer_list<Binding> bindings{};
+
+    BufferId bound(const char* block) const; ///< for twins: the buffer behind a parameterised block
+};
+
+/// One step on its way. Tickets count up from 0 for each device.
+using Ticket = std::uint64_t;
+
+/// Most steps that may be on their way at once.
+inline constexpr std::size_t k_ring_size = 8;
+
+struct ReadRequest {
+    BufferId buffer;
+    std::size_t bytes;
+    void* destination;
+};
+
+class Device {
+public:
+    virtual ~Device() = default;
+
+    virtual DeviceInfo info() const = 0;
+
+    /// Gives a buffer room for at least `bytes`; the old content stays at its start, the rest is zero.
+    virtual void grow(BufferId, std::size_t bytes) = 0;
+    virtual std::size_t size(BufferId) const = 0;
+    virtual std::uint64_t memory_bytes() const = 0;
+    /// After the kernels that were given so far.
+    virtual void write(BufferId, std::size_t offset, std::span<const std::byte>) = 0;
+    /// Waits for all kernels that were given so far, once for all requests; reads from each buffer's start.
+    virtual void read(std::span<const ReadRequest>) = 0;
+    virtual void swap(BufferId, BufferId) = 0;
+    virtual void set_parameters(const Parameters&) = 0;
+
+    virtual void run(const Launch&) = 0;
+
+    /// Marks the start of a stage for profilers and debuggers; the one before it ends.
+    virtual void begin_stage(Stage) = 0;
+    /// Ends a step: its counters, and the poses if asked for, leave for the host. Waits only if k_ring_size steps are on
+    /// their way already.
+    virtual Ticket end_step(bool with_poses) = 0;
+    virtual bool finished(Ticket) const = 0;
+    virtual void wait(Ticket) = 0;
+    /// Of a finished ticket that is among the last k_ring_size.
+    virtual std::span<const uint> counters(Ticket) const = 0;
+    virtual std::span<const BodyPose> poses(Ticket) const = 0;
+    /// Milliseconds of each stage of a finished step; empty where profiling is off.
+    virtual std::span<const double> stage_ms(Ticket) const = 0;
+
+    /// A buffer's memory where the host may use it directly; null on a GPU.
+    virtual std::byte* host_data(BufferId) { return nullptr; }
+    /// For drawing without a copy; 0 on a device without OpenGL.
+    virtual std::uint32_t gl_name(BufferId) const { return 0; }
+    virtual void make_current() {}
+};
+
+/// Both throw talus::Error.
+std::unique_ptr<Device> make_cpu_device(std::uint32_t threads, bool profile);
+std::unique_ptr<Device> make_gl_device(GlContext, bool profile);
+
+/// The GPU that make_gl_device(GlContext::Own) would take, without making it; an empty name, and the reason in `why`,
+/// where there is none. `software` is true for a renderer that runs on the CPU (llvmpipe, softpipe, lavapipe).
+struct GlProbe {
+    DeviceInfo info;
+    bool software = false;
+};
+std::vector<GlProbe> probe_gl();
+
+} // namespace talus::engine

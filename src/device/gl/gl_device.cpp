@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+// See gl_device.h. OpenGL runs commands in order, but lets the writes of shaders be seen late; the barriers here are
+// those that the contract of device.h needs, and no others.
+#include "device/gl/gl_device.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace talus::engine {
+namespace {
+
+constexpr std::size_t k_cell_bytes = 16;
+constexpr uint k_max_groups = 65535; // of one dimension, on every driver
+
+std::size_t whole_cells(std::size_t bytes) {
+    return (bytes + k_cell_bytes - 1) / k_cell_bytes * k_cell_bytes;
+}
+
+const BufferInfo& buffer_info(BufferId id) {
+    return k_buffers[static_cast<std::size_t>(id)];
+}
+
+void dispatch_groups(uint groups) {
+    const uint rows = (groups + k_max_groups - 1) / k_max_groups;
+    glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+}
+
+} // namespace
+
+GlDevice::Objects::Objects(bool profile) : parameters("Parameters", sizeof(Parameters)), steps(profile) {
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        // Never empty, so that every buffer can be bound.
+        const std::size_t bytes = whole_cells(k_buffers[i].stride);
+        buffers[i] = GlBuffer(k_buffers[i].block, bytes);
+        buffers[i].zero(0, bytes);
+    }
+    parameters.zero(0, sizeof(Parameters));
+}
+
+GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile) : context_(std::move(context)) {
+    context_->make_current();
+    GLint64 bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    max_block_bytes_ = static_cast<std::size_t>(bytes);
+    objects_ = std::make_unique<Objects>(profile);
+}
+
+GlDevice::~GlDevice() {
+    try {
+        context_->make_current();
+        leave();
+    } catch (const Error&) {
+        // The caller's context is gone or elsewhere: freeing names now could hit another context's objects, and its own
+        // went with it.
+        static_cast<void>(objects_.release());
+    }
+}
+
+DeviceInfo GlDevice::info() const {
+    return {.kind = DeviceKind::Gpu,
+            .name = context_->renderer(),
+            .driver = context_->driver(),
+            .why = context_->why(),
+            .threads = 0};
+}
+
+void GlDevice::grow(BufferId id, std::size_t bytes) {
+    GlBuffer& old = buffer(id);
+    if (bytes <= old.size()) return;
+    const std::size_t wanted = whole_cells(bytes);
+    if (wanted > max_block_bytes_)
+        throw Error(std::string("buffer ") + buffer_info(id).block + ": " + std::to_string(wanted) +
+                    " bytes are needed, and " + context_->renderer() + " allows a buffer of " +
+                    std::to_string(max_block_bytes_) + " bytes at most");
+    make_current();
+    order_after_kernels();
+    GlBuffer grown(buffer_info(id).block, wanted);
+    glCopyNamedBufferSubData(old.name(), grown.name(), 0, 0, static_cast<GLsizeiptr>(old.size()));
+    grown.zero(old.size(), wanted - old.size());
+    old = std::move(grown);
+    bindings_.forget();
+}
+
+std::size_t GlDevice::size(BufferId id) const {
+    return buffer(id).size();
+}
+
+std::uint64_t GlDevice::memory_bytes() const {
+    std::uint64_t bytes = objects_->parameters.size() + objects_->uploads.memory_bytes() +
+                          objects_->read_back.memory_bytes() + objects_->steps.memory_bytes();
+    for (const GlBuffer& each : objects_->buffers)
+        bytes += each.size();
+    return bytes;
+}
+
+void GlDevice::write(BufferId id, std::size_t offset, std::span<const std::byte> bytes) {
+    check_range(id, offset + bytes.size(), "written");
+    make_current();
+    order_after_kernels();
+    objects_->uploads.copy(buffer(id).name(), offset, bytes);
+}
+
+void GlDevice::read(std::span<const ReadRequest> requests) {
+    std::vector<ReadBack::Request> sources;
+    sources.reserve(requests.size());
+    for (const ReadRequest& request : requests) {
+        check_range(request.buffer, request.bytes, "read");
+        sources.push_back({buffer(request.buffer).name(), request.bytes, request.destination});
+    }
+    make_current();
+    leave();
+    order_after_kernels();
+    objects_->read_back.read(sources);
+}
+
+void GlDevice::swap(BufferId a, BufferId b) {
+    std::swap(buffer(a), buffer(b));
+    if (context_->is_debug()) {
+        make_current();
+        buffer(a).label(buffer_info(a).block);
+        buffer(b).label(buffer_info(b).block);
+    }
+}
+
+void GlDevice::set_parameters(const Parameters& parameters) {
+    if (parameters_ && std::memcmp(&*parameters_, &parameters, sizeof(Parameters)) == 0) return;
+    make_current();
+    objects_->uploads.copy(objects_->parameters.name(), 0, std::as_bytes(std::span(&parameters, 1)));
+    parameters_ = parameters;
+}
+
+void GlDevice::run(const Launch& launch) {
+    try {
+        run_kernel(launch);
+    } catch (const Error&) {
+        leave();
+        throw;
+    }
+}
+
+void GlDevice::run_kernel(const Launch& launch) {
+    const uint groups =
+        launch.items / launch.kernel.items_a_group + (launch.items % launch.kernel.items_a_group != 0 ? 1 : 0);
+    if (launch.slot == k_none && groups == 0) return;
+    make_current();
+    GlProgram& kernel = program(launch.kernel);
+
+    bindings_.begin(!context_->is_own());
+    bindings_.use_program(kernel.name());
+    GLbitfield barriers = GL_SHADER_STORAGE_BARRIER_BIT;
+    for (GLuint binding = 0; binding < kernel.blocks().size(); ++binding) {
+        const StorageBlock& block = kernel.blocks()[binding];
+        const BufferId id = kernel.buffer(block, launch);
+        bindings_.bind_storage(binding, buffer(id).name());
+        if (id == BufferId::Dispatches && block.written)
+            barriers |= GL_COMMAND_BARRIER_BIT; // nearly doubles the cost of a dispatch on some GPUs
+    }
+    if (kernel.uses_parameters()) bindings_.bind_parameters(objects_->parameters.name());
+    kernel.set_args(launch.args);
+
+    if (launch.slot == k_none) {
+        dispatch_groups(groups);
+    } else {
+        bindings_.bind_dispatches(buffer(BufferId::Dispatches).name());
+        glDispatchComputeIndirect(static_cast<GLintptr>(launch.slot * sizeof(Dispatch)));
+    }
+    glMemoryBarrier(barriers);
+    kernels_pending_ = true;
+}
+
+void GlDevice::begin_stage(Stage stage) {
+    make_current();
+    end_stage();
+    context_->activity = k_stage_names[static_cast<std::size_t>(stage)];
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, context_->activity);
+    in_stage_ = true;
+    objects_->steps.begin_stage(stage);
+}
+
+Ticket GlDevice::end_step(bool with_poses) {
+    make_current();
+    leave();
+    // All bits, once a step: the copies below and the caller's drawing, whatever it does with the buffers, see the
+    // step.
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    kernels_pending_ = false;
+    const GlBuffer& poses = buffer(BufferId::Poses);
+    const std::size_t body_count = parameters_ ? parameters_->body_count : 0;
+    const std::size_t pose_bytes = with_poses ? std::min(body_count * sizeof(BodyPose), poses.size()) : 0;
+    return objects_->steps.end_step(buffer(BufferId::Counters).name(), poses.name(), pose_bytes);
+}
+
+bool GlDevice::finished(Ticket ticket) const {
+    context_->make_current();
+    return objects_->steps.finished(ticket);
+}
+
+void GlDevice::wait(Ticket ticket) {
+    make_current();
+    objects_->steps.wait(ticket);
+}
+
+std::span<const uint> GlDevice::counters(Ticket ticket) const {
+    context_->make_current();
+    return objects_->steps.counters(ticket);
+}
+
+std::span<const BodyPose> GlDevice::poses(Ticket ticket) const {
+    context_->make_current();
+    return objects_->steps.poses(ticket);
+}
+
+std::span<const double> GlDevice::stage_ms(Ticket ticket) const {
+    context_->make_current();
+    return objects_->steps.stage_ms(ticket);
+}
+
+std::uint32_t GlDevice::gl_name(BufferId id) const {
+    return buffer(id).name();
+}
+
+void GlDevice::make_current() {
+    context_->make_current();
+}
+
+GlBuffer& GlDevice::buffer(BufferId id) const {
+    return objects_->buffers[static_cast<std::size_t>(id)];
+}
+
+GlProgram& GlDevice::program(const Kernel& kernel) {
+    const std::string path = kernel.path;
+    return objects_->programs.try_emplace(path, path).first->second;
+}
+
+void GlDevice::check_range(BufferId id, std::size_t end, const char* what) const {
+    if (end > size(id))
+        throw Error(std::string("buffer ") + buffer_info(id).block + ": " + std::to_string(end) + " bytes were to be " +
+                    what + ", but it has " + std::to_string(size(id)));
+}
+
+void GlDevice::order_after_kernels() {
+    if (kernels_pending_) glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    kernels_pending_ = false;
+}
+
+void GlDevice::end_stage() {
+    if (in_stage_) glPopDebugGroup();
+    in_stage_ = false;
+    context_->activity = "between stages";
+}
+
+void GlDevice::leave() {
+    end_stage();
+    bindings_.end();
+}
+
+std::unique_ptr<Device> make_gl_device(GlContext context, bool profile) {
+    return std::make_unique<GlDevice>(context == GlContext::Own ? OpenGlContext::own() : OpenGlContext::current(),
+                                      profile);
+}
+
+} // namespace talus::engine

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The device that runs the kernels as OpenGL compute shaders. Everything stays on the GPU: nothing here waits for it
+// but `read`, `wait`, and `end_step` where the host is k_ring_size steps ahead.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "device/device.h"
+#include "device/gl/gl_bindings.h"
+#include "device/gl/gl_context.h"
+#include "device/gl/gl_program.h"
+#include "device/gl/gl_step_ring.h"
+#include "device/gl/gl_transfer.h"
+
+namespace talus::engine {
+
+class GlDevice final : public Device {
+public:
+    GlDevice(std::unique_ptr<OpenGlContext>, bool profile);
+    ~GlDevice() override;
+
+    DeviceInfo info() const override;
+    void grow(BufferId, std::size_t bytes) override;
+    std::size_t size(BufferId) const override;
+    std::uint64_t memory_bytes() const override;
+    void write(BufferId, std::size_t offset, std::span<const std::byte>) override;
+    void read(std::span<const ReadRequest>) override;
+    void swap(BufferId, BufferId) override;
+    void set_parameters(const Parameters&) override;
+    void run(const Launch&) override;
+    void begin_stage(Stage) override;
+    Ticket end_step(bool with_poses) override;
+    bool finished(Ticket) const override;
+    void wait(Ticket) override;
+    std::span<const uint> counters(Ticket) const override;
+    std::span<const BodyPose> poses(Ticket) const override;
+    std::span<const double> stage_ms(Ticket) const override;
+    std::uint32_t gl_name(BufferId) const override;
+    void make_current() override;
+
+private:
+    /// Everything that lives in the context.
+    struct Objects {
+        explicit Objects(bool profile);
+
+        std::array<GlBuffer, k_buffers.size()> buffers;
+        GlBuffer parameters;
+        std::unordered_map<std::string, GlProgram> programs;
+        UploadRing uploads;
+        ReadBack read_back;
+        StepRing steps;
+    };
+
+    GlBuffer& buffer(BufferId) const;
+    GlProgram& program(const Kernel&);
+    void run_kernel(const Launch&);
+    void check_range(BufferId, std::size_t end, const char* what) const;
+    /// Lets copies see what kernels wrote.
+    void order_after_kernels();
+    void end_stage();
+    /// Ends the stage, and gives the caller's context back as it was.
+    void leave();
+
+    std::unique_ptr<OpenGlContext> context_;
+    std::unique_ptr<Objects> objects_;
+    GlBindings bindings_;
+    std::optional<Parameters> parameters_;
+    std::size_t max_block_bytes_ = 0;
+    bool kernels_pending_ = false; // ran since the last order_after_kernels
+    bool in_stage_ = false;
+};
+
+} // namespace talus::engine

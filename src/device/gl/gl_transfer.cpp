@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// See gl_transfer.h. All mappings are coherent, so the fences alone order the host's accesses and the GPU's.
+#include "device/gl/gl_transfer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace talus::engine {
+namespace {
+
+constexpr GLbitfield k_mapped = GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+constexpr std::size_t k_alignment = 16;
+
+std::size_t aligned(std::size_t bytes) {
+    return (bytes + k_alignment - 1) / k_alignment * k_alignment;
+}
+
+} // namespace
+
+UploadRing::UploadRing() : buffer_("UploadRing", k_segment_bytes * k_segments, GL_MAP_WRITE_BIT | k_mapped) {}
+
+void UploadRing::copy(GLuint target, std::size_t offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        if (used_ == k_segment_bytes) {
+            fences_[segment_] = GlFence::place();
+            segment_ = (segment_ + 1) % k_segments;
+            fences_[segment_].wait();
+            used_ = 0;
+        }
+        const std::size_t source = segment_ * k_segment_bytes + used_;
+        const std::size_t count = std::min(bytes.size(), k_segment_bytes - used_);
+        std::memcpy(buffer_.mapped() + source, bytes.data(), count);
+        glCopyNamedBufferSubData(buffer_.name(), target, static_cast<GLintptr>(source), static_cast<GLintptr>(offset),
+                                 static_cast<GLsizeiptr>(count));
+        used_ += aligned(count);
+        offset += count;
+        bytes = bytes.subspan(count);
+    }
+}
+
+void ReadBack::read(std::span<const Request> requests) {
+    std::size_t total = 0;
+    for (const Request& request : requests)
+        total += aligned(request.bytes);
+    if (total == 0) return;
+    if (total > buffer_.size()) buffer_ = GlBuffer("ReadBack", std::bit_ceil(total), GL_MAP_READ_BIT | k_mapped);
+
+    std::size_t place = 0;
+    for (const Request& request : requests) {
+        glCopyNamedBufferSubData(request.source, buffer_.name(), 0, static_cast<GLintptr>(place),
+                                 static_cast<GLsizeiptr>(request.bytes));
+        place += aligned(request.bytes);
+    }
+    GlFence::place().wait();
+    place = 0;
+    for (const Request& request : requests) {
+        std::memcpy(request.destination, buffer_.mapped() + place, request.bytes);
+        place += aligned(request.bytes);
+    }
+}
+
+} // namespace talus::engine

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of finish_bodies.comp.glsl.
+#include <atomic>
+
+#include "device/cpu/cpu_state.h"
+#include "finish/finish.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
+    state.parallel(state.parameters.body_count, [&](uint body) {
+        const uint kind = state.shapes[body].type >> 8;
+        if (kind != k_kind_rigid && kind != k_kind_kinematic) return;
+        state.loads[body] = no_load();
+        BodyPose& pose = state.poses[body];
+        if ((pose.flags & k_body_frozen) != 0) return;
+        const BodyPose moved = apply_delta(pose, state.deltas[body]);
+        if (is_finite_motion(moved, state.velocities[body])) {
+            pose = moved;
+        } else {
+            pose.flags |= k_body_frozen;
+            state.velocities[body] = frozen_velocity();
+            std::atomic_ref(state.counters[k_counter_frozen_bodies]).fetch_add(1);
+        }
+    });
+}
+
+const Kernel finish_bodies{"finish/finish_bodies", finish_bodies_on_cpu};
+
+} // namespace talus::engine

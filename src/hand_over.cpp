@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copies between the devices of a hybrid step. The resolution's device keeps its buffers in host memory, so each copy is
+// one transfer of the other device.
+#include "hand_over.h"
+
+#include "step.h"
+
+namespace talus::engine {
+namespace {
+
+void lend(Device& from, Device& to, BufferId buffer, std::size_t count) {
+    const std::size_t stride = k_buffers[static_cast<std::size_t>(buffer)].stride;
+    to.write(buffer, 0, {from.host_data(buffer), count * stride});
+}
+
+ReadRequest take(Device& to, BufferId buffer, std::size_t count) {
+    const std::size_t stride = k_buffers[static_cast<std::size_t>(buffer)].stride;
+    return {buffer, count * stride, to.host_data(buffer)};
+}
+
+uint counter(Device& device, uint word) {
+    return reinterpret_cast<const uint*>(device.host_data(BufferId::Counters))[word];
+}
+
+} // namespace
+
+void hand_over_bodies(Device& from, Device& to, const StepPlan& plan) {
+    lend(from, to, BufferId::Counters, k_counter_words);
+    lend(from, to, BufferId::Poses, plan.body_count);
+    lend(from, to, BufferId::Velocities, plan.body_count);
+}
+
+void hand_over_manifolds(Device& from, Device& to, const StepPlan&) {
+    const std::array control{take(to, BufferId::Counters, k_counter_words),
+                             take(to, BufferId::Dispatches, k_dispatch_count)};
+    from.read(control);
+    const uint pair_count = counter(to, k_counter_pair_count);
+    const std::array manifolds{take(to, BufferId::Manifolds, pair_count),
+                               take(to, BufferId::ManifoldPoints, std::size_t{4} * pair_count)};
+    from.read(manifolds);
+}
+
+void hand_over_impulses(Device& from, Device& to, const StepPlan&) {
+    if (counter(from, k_counter_did_not_fit) != 0) return; // the old ones are still wanted
+    const uint pair_count = counter(from, k_counter_old_pair_count);
+    lend(from, to, BufferId::OldManifolds, pair_count);
+    lend(from, to, BufferId::OldManifoldPoints, std::size_t{4} * pair_count);
+}
+
+} // namespace talus::engine

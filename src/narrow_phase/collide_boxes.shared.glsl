@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+// Box against box: separating axis test, clipping, reduction (thesis, section 3.3).
+//
+// A separating axis is named by a number: 0-2 a face of A with that axis as its normal, 3-5 a face of B, 6 + 3 i + j
+// the cross product of A's edge i and B's edge j. The thesis queries vertices (algorithms 5 and 6); a box's support
+// point along an axis is known from its half extents, so the distances below are the same in closed form.
+
+// An edge contact must be this much less deep than every face contact to be taken (m). A face gives up to four points
+// where an edge gives one, and in a resting stack the two tie.
+const float k_face_preference = 2.5e-3f;
+// The last step's axis is kept while it is no more than this much worse than the best (m): features must not flip.
+const float k_axis_persistence = 1.0e-3f;
+// Edges within about 2 degrees of parallel have no usable cross product; the faces cover them.
+const float k_parallel = 1.0e-3f;
+// Points less than this deeper than another are not worth a different choice in the reduction (m).
+const float k_depth_tie = 1.0e-4f;
+
+struct BoxPair {
+    Axes a;
+    Axes b;
+    vec3 half_a;
+    vec3 half_b;
+    vec3 offset; // from A's centre to B's, world
+};
+
+struct AxisQuery {
+    float separation; // m, largest over the axes seen: the thesis's "smallest signed distance"
+    float score;      // separation and preferences
+    uint axis;
+};
+
+inline AxisQuery better_axis(AxisQuery best, float separation, float preference, uint axis, uint old_axis)
+{
+    precise float score = separation + preference + (axis == old_axis ? k_axis_persistence : 0.0f);
+    if (score > best.score) {
+        best.separation = separation;
+        best.score = score;
+        best.axis = axis;
+    }
+    return best;
+}
+
+// Separation along a unit direction: distance of the centres less the extents of both boxes.
+inline float separation_along(BoxPair p, vec3 direction)
+{
+    precise float reach_a = abs(dot3(p.a.x, direction)) * p.half_a.x + abs(dot3(p.a.y, direction)) * p.half_a.y +
+                            abs(dot3(p.a.z, direction)) * p.half_a.z;
+    precise float reach_b = abs(dot3(p.b.x, direction)) * p.half_b.x + abs(dot3(p.b.y, direction)) * p.half_b.y +
+                            abs(dot3(p.b.z, direction)) * p.half_b.z;
+    precise float separation = abs(dot3(p.offset, direction)) - reach_a - reach_b;
+    return separation;
+}
+
+// Face queries of both boxes (algorithm 5) and the edge query (algorithm 6).
+inline AxisQuery query_axes(BoxPair p, uint old_axis)
+{
+    AxisQuery best;
+    best.separation = -3.0e38f;
+    best.score = -3.0e38f;
+    best.axis = 0u;
+    for (uint i = 0u; i < 6u; i += 1u) {
+        vec3 direction = i < 3u ? axis_of(p.a, i) : axis_of(p.b, i - 3u);
+        best = better_axis(best, separation_along(p, direction), k_face_preference, i, old_axis);
+    }
+    for (uint i = 0u; i < 9u; i += 1u) {
+        vec3 across = cross3(axis_of(p.a, i / 3u), axis_of(p.b, i % 3u));
+        float square = dot3(across, across);
+        if (square > k_parallel) {
+            vec3 direction = scale3(across, inverse_sqrt(square));
+            best = better_axis(best, separation_along(p, direction), 0.0f, 6u + i, old_axis);
+        }
+    }
+    return best;
+}
+
+// ---- face contact ----
+
+// A convex polygon in the reference face's frame: x and y along the face, z above it. Edge i runs from point i to the
+// next and carries a label: 0-3 an edge of the incident face, 4-7 a side plane of the reference face.
+struct Polygon {
+    vec3 points[8];
+    uint labels[8];
+    uint count;
+};
+
+// Sutherland-Hodgman against one side plane (algorithm 7): keeps what has sign * (x or y) <= limit.
+inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit, uint label)
+{
+    Polygon result;
+    result.count = 0u;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        uint next = i + 1u < polygon.count ? i + 1u : 0u;
+        vec3 from = polygon.points[i];
+        vec3 to = polygon.points[next];
+        precise float distance_from = sign * component(from, axis) - limit;
+        precise float distance_to = sign * component(to, axis) - limit;
+        bool inside_from = distance_from <= 0.0f;
+        bool inside_to = distance_to <= 0.0f;
+        if (inside_from && result.count < 8u) {
+            result.points[result.count] = from;
+            result.labels[result.count] = polygon.labels[i];
+            result.count += 1u;
+        }
+        if (inside_from != inside_to && result.count < 8u) {
+            precise float t = distance_from * reciprocal(distance_from - distance_to);
+            precise vec3 crossing = from + (to - from) * t;
+            result.points[result.count] = crossing;
+            // On the way out the next edge runs along the plane; on the way in it is the rest of this edge.
+            result.labels[result.count] = inside_from ? label : polygon.labels[i];
+            result.count += 1u;
+        }
+    }
+    return result;
+}
+
+// The face of the incident box which looks most against the reference normal, as a polygon in the reference frame.
+// `r`: incident axes in the reference frame's directions (u, v, n); `centre`: incident centre there.
+inline Polygon incident_face(Axes r, vec3 half_extents, vec3 centre)
+{
+    uint axis = 0u;
+    if (abs(r.y.z) > abs(r.x.z)) axis = 1u;
+    if (abs(r.z.z) > max(abs(r.x.z), abs(r.y.z))) axis = 2u;
+    vec3 face_normal = axis_of(r, axis);
+    float side = face_normal.z > 0.0f ? -1.0f : 1.0f;
+    uint axis_u = axis == 2u ? 0u : axis + 1u;
+    uint axis_v = axis_u == 2u ? 0u : axis_u + 1u;
+    precise vec3 middle = centre + face_normal * (side * component(half_extents, axis));
+    precise vec3 u = axis_of(r, axis_u) * component(half_extents, axis_u);
+    precise vec3 v = axis_of(r, axis_v) * component(half_extents, axis_v);
+    precise vec3 p0 = middle + u + v;
+    precise vec3 p1 = middle - u + v;
+    precise vec3 p2 = middle - u - v;
+    precise vec3 p3 = middle + u - v;
+    Polygon polygon;
+    polygon.count = 4u;
+    polygon.points[0] = p0;
+    polygon.points[1] = p1;
+    polygon.points[2] = p2;
+    polygon.points[3] = p3;
+    for (uint i = 0u; i < 4u; i += 1u) {
+        // The face is part of the label, so that a point on another face is another feature.
+        polygon.labels[i] = i + 8u * (2u * axis + (side > 0.0f ? 1u : 0u));
+    }
+    return polygon;
+}
+
+// Twice the signed area of a triangle, seen in the reference face.
+inline float triangle_area(vec3 a, vec3 b, vec3 c)
+{
+    precise float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    return area;
+}
+
+// Which four points to keep of more (algorithm 8): the deepest, the farthest from it, the one that makes the largest
+// triangle with these, and the one that adds most area beyond its sides. Returns a bit a point.
+inline uint reduce_points(Polygon polygon)
+{
+    uint first = 0u;
+    for (uint i = 1u; i < polygon.count; i += 1u) {
+        precise float gain = polygon.points[first].z - polygon.points[i].z;
+        if (gain > k_depth_tie) first = i;
+    }
+    vec3 a = polygon.points[first];
+    uint second = first;
+    float farthest = 0.0f;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        precise vec3 d = polygon.points[i] - a;
+        precise float square = d.x * d.x + d.y * d.y;
+        if (square > farthest) {
+            farthest = square;
+            second = i;
+        }
+    }
+    vec3 b = polygon.points[second];
+    uint third = first;
+    float largest = 0.0f;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        float area = triangle_area(a, b, polygon.points[i]);
+        if (abs(area) > abs(largest)) {
+            largest = area;
+            third = i;
+        }
+    }
+    vec3 c = polygon.points[third];
+    float turn = largest < 0.0f ? -1.0f : 1.0f;
+    uint fourth = first;
+    float most = 0.0f;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        vec3 p = polygon.points[i];
+        // The area beyond a side is negative in the triangle's own orientation.
+        float beyond = min(turn * triangle_area(a, b, p), min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
+        if (beyond < most) {
+            most = beyond;
+            fourth = i;
+        }
+    }
+    return (1u << first) | (1u << second) | (1u << third) | (1u << fourth);
+}
+
+// The reference box is A; `axis` is its face's axis.
+inline ContactGeometry face_contact(BoxPair p, uint axis, float max_separation)
+{
+    uint axis_u = axis == 2u ? 0u : axis + 1u;
+    uint axis_v = axis_u == 2u ? 0u : axis_u + 1u;
+    vec3 n = axis_of(p.a, axis);
+    float side = dot3(n, p.offset) < 0.0f ? -1.0f : 1.0f;
+    Axes frame; // of the reference face: u, v and the outward normal
+    frame.x = axis_of(p.a, axis_u);
+    frame.y = axis_of(p.a, axis_v);
+    frame.z = scale3(n, side);
+    float half_u = component(p.half_a, axis_u);
+    float half_v = component(p.half_a, axis_v);
+    float half_n = component(p.half_a, axis);
+
+    Axes incident;
+    incident.x = to_local(frame, p.b.x);
+    incident.y = to_local(frame, p.b.y);
+    incident.z = to_local(frame, p.b.z);
+    precise vec3 centre = to_local(frame, p.offset) - vec3(0.0f, 0.0f, half_n);
+
+    Polygon polygon = incident_face(incident, p.half_b, centre);
+    polygon = clip_polygon(polygon, 0u, 1.0f, half_u, 4u);
+    polygon = clip_polygon(polygon, 0u, -1.0f, half_u, 5u);
+    polygon = clip_polygon(polygon, 1u, 1.0f, half_v, 6u);
+    polygon = clip_polygon(polygon, 1u, -1.0f, half_v, 7u);
+
+    ContactGeometry g = no_contact();
+    g.normal = frame.z;
+    uint kept = polygon.count > 4u ? reduce_points(polygon) : 0xffu;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        float separation = polygon.points[i].z;
+        if (((kept >> i) & 1u) != 0u && separation <= max_separation && g.count < 4u) {
+            uint before = i > 0u ? i - 1u : polygon.count - 1u;
+            // Projected on the reference face, then moved half-way to the incident one.
+            precise vec3 local = vec3(polygon.points[i].x, polygon.points[i].y, half_n + 0.5f * separation);
+            g.points[g.count] = to_world(frame, local);
+            g.separations[g.count] = separation;
+            g.features[g.count] = polygon.labels[before] * 64u + polygon.labels[i];
+            g.count += 1u;
+        }
+    }
+    return g;
+}
+
+// ---- edge contact ----
+
+// Closest points of two edges (lines: the separating axis crosses both within their length).
+inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float separation)
+{
+    vec3 direction_a = axis_of(p.a, edge_a);
+    vec3 direction_b = axis_of(p.b, edge_b);
+    vec3 across = cross3(direction_a, direction_b);
+    float inverse_length = inverse_sqrt(dot3(across, across));
+    precise float scale = dot3(across, p.offset) < 0.0f ? -inverse_length : inverse_length;
+    vec3 normal = scale3(across, scale); // from A to B
+
+    // A point on each edge: its middle, at the corner of the box that looks along the normal.
+    vec3 point_a = vec3(0.0f, 0.0f, 0.0f);
+    vec3 point_b = p.offset;
+    uint corner = 0u;
+    for (uint i = 0u; i < 3u; i += 1u) {
+        if (i != edge_a) {
+            vec3 axis = axis_of(p.a, i);
+            bool positive = dot3(axis, normal) > 0.0f;
+            float reach = component(p.half_a, i);
+            point_a = add_scaled(point_a, axis, positive ? reach : -reach);
+            corner = corner * 2u + (positive ? 1u : 0u);
+        }
+        if (i != edge_b) {
+            vec3 axis = axis_of(p.b, i);
+            bool positive = dot3(axis, normal) < 0.0f;
+            float reach = component(p.half_b, i);
+            point_b = add_scaled(point_b, axis, positive ? reach : -reach);
+            corner = corner * 2u + (positive ? 1u : 0u);
+        }
+    }
+    // Minimise |point_a + s a - point_b - t b|: with unit directions and c = a·b, s = (a·d - c b·d) / (1 - c^2).
+    precise vec3 d = point_b - point_a;
+    float c = dot3(direction_a, direction_b);
+    float ad = dot3(direction_a, d);
+    float bd = dot3(direction_b, d);
+    float inverse = reciprocal(dot3(across, across));
+    precise float s = (ad - c * bd) * inverse;
+    precise float t = (c * ad - bd) * inverse;
+    float reach_a = component(p.half_a, edge_a);
+    float reach_b = component(p.half_b, edge_b);
+    vec3 on_a = add_scaled(point_a, direction_a, clamp_to(s, -reach_a, reach_a));
+    vec3 on_b = add_scaled(point_b, direction_b, clamp_to(t, -reach_b, reach_b));
+    precise vec3 middle = 0.5f * (on_a + on_b);
+    ContactGeometry g = one_contact(normal, middle, separation);
+    g.features[0] = 0x10000u + corner;
+    return g;
+}
+
+// `old_axis`: the axis of the last step's contact, or k_axis_none.
+inline ContactGeometry collide_boxes(BoxPair p, uint old_axis, float max_separation)
+{
+    AxisQuery query = query_axes(p, old_axis);
+    if (query.separation > max_separation) return no_contact();
+    ContactGeometry g;
+    if (query.axis >= 6u) {
+        g = edge_contact(p, (query.axis - 6u) / 3u, (query.axis - 6u) % 3u, query.separation);
+    } else {
+        // The reference box is the one whose face it is.
+        bool b_is_reference = query.axis >= 3u;
+        BoxPair q = p;
+        if (b_is_reference) {
+            q.a = p.b;
+            q.b = p.a;
+            q.half_a = p.half_b;
+            q.half_b = p.half_a;
+            q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
+        }
+        g = face_contact(q, b_is_reference ? query.axis - 3u : query.axis, max_separation);
+        if (b_is_reference) g = swap_bodies(g, q.offset);
+    }
+    g.axis = query.axis;
+    return g;
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of collide_pairs.comp.glsl.
+#include "device/cpu/cpu_state.h"
+#include "narrow_phase/narrow_phase.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+namespace {
+
+/// The last step's manifold of a pair, or k_none.
+uint find_old_manifold(const CpuState& state, Pair pair) {
+    const uint mask = state.parameters.table_size - 1;
+    for (uint slot = hash_pair(pair.body_a, pair.body_b) & mask;; slot = (slot + 1) & mask) {
+        const uint old = state.pair_table[slot];
+        if (old == k_none) return k_none;
+        const Manifold& manifold = state.old_manifolds[old];
+        if (manifold.body_a == pair.body_a && manifold.body_b == pair.body_b) return old;
+    }
+}
+
+void collide_pair(CpuState& state, uint pair_index) {
+    const Pair pair = state.pairs[pair_index];
+
+    const uint old_index = find_old_manifold(state, pair);
+    const ManifoldPoint* old_records = nullptr;
+    uint old_axis = k_axis_none;
+    uint old_colour = k_no_colour;
+    vec3 old_normal(0.0f);
+    OldPoints old_points = no_old_points();
+    if (old_index != k_none) {
+        const Manifold& old = state.old_manifolds[old_index];
+        old_records = &state.old_manifold_points[std::size_t{4} * old_index];
+        old_axis = old.axis;
+        old_colour = old.colour;
+        old_normal = old.normal;
+        old_points.count = old.point_count;
+        for (uint i = 0; i < old.point_count; ++i) {
+            old_points.anchors[i] = old_records[i].anchor_a;
+            old_points.features[i] = old_records[i].feature_id;
+        }
+    }
+
+    const BodyPose& pose_a = state.poses[pair.body_a];
+    const BodyPose& pose_b = state.poses[pair.body_b];
+    const vec3 offset = pose_b.position - pose_a.position;
+    const float max_separation = state.aabbs[pair.body_a].margin + state.aabbs[pair.body_b].margin;
+    const ContactGeometry g = collide_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b],
+                                             old_axis, max_separation);
+    state.manifolds[pair_index] =
+        make_manifold(pair, g, old_colour, state.properties[pair.body_a], state.properties[pair.body_b]);
+
+    const PointMatch match = match_points(g, old_points, g.axis == old_axis);
+    for (uint i = 0; i < g.count; ++i) {
+        ManifoldPoint point = make_point(g, offset, i);
+        if (match.old_index[i] != k_none)
+            point = carry_impulse(point, g.normal, old_records[match.old_index[i]], old_normal);
+        state.manifold_points[std::size_t{4} * pair_index + i] = point;
+    }
+}
+
+void collide_pairs_on_cpu(CpuState& state, const Launch&) {
+    state.parallel(
+        state.counters[k_counter_pair_count], [&](uint pair) { collide_pair(state, pair); }, 64);
+}
+
+} // namespace
+
+const Kernel collide_pairs{"narrow_phase/collide_pairs", collide_pairs_on_cpu};
+
+} // namespace talus::engine

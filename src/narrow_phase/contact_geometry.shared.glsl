@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What the collision of two shapes gives, whatever the shapes: the geometry of a manifold.
+
+const uint k_axis_none = 0xffu; // spheres have no separating axis to remember
+
+struct ContactGeometry {
+    vec3 normal; // unit, world, from A to B
+    uint axis;   // which separating axis it is
+    uint count;  // points, 0 to 4
+    // Points midway between the two surfaces, from A's centre in world axes (m). The midpoint serves both bodies, so
+    // that a normal and a friction impulse change no angular momentum; the thesis takes the reference face.
+    vec3 points[4];
+    float separations[4]; // m, negative = overlap
+    uint features[4];     // which vertex or edges made the point, stable while they stay the same
+};
+
+inline ContactGeometry no_contact()
+{
+    ContactGeometry g;
+    g.normal = vec3(0.0f, 1.0f, 0.0f);
+    g.axis = k_axis_none;
+    g.count = 0u;
+    for (uint i = 0u; i < 4u; i += 1u) {
+        g.points[i] = vec3(0.0f, 0.0f, 0.0f);
+        g.separations[i] = 0.0f;
+        g.features[i] = 0u;
+    }
+    return g;
+}
+
+inline ContactGeometry one_contact(vec3 normal, vec3 point, float separation)
+{
+    ContactGeometry g = no_contact();
+    g.normal = normal;
+    g.count = 1u;
+    g.points[0] = point;
+    g.separations[0] = separation;
+    return g;
+}
+
+// The same contact seen from the other body, whose centre lies at `offset` from A's.
+inline ContactGeometry swap_bodies(ContactGeometry g, vec3 offset)
+{
+    ContactGeometry r = g;
+    r.normal = vec3(-g.normal.x, -g.normal.y, -g.normal.z);
+    for (uint i = 0u; i < 4u; i += 1u) {
+        precise vec3 point = g.points[i] - offset;
+        r.points[i] = point;
+    }
+    return r;
+}

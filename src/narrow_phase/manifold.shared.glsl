@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// From two bodies to a manifold: the table of shape pairs, the material, and the impulses of the last step.
+// Needs resolution/tangents.shared.glsl.
+
+// One entry a pair of shapes. A new shape adds its entries here.
+inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
+                                      uint old_axis, float max_separation)
+{
+    precise vec3 offset = pose_b.position - pose_a.position;
+    uint type_a = shape_a.type & 255u;
+    uint type_b = shape_b.type & 255u;
+    if (type_a == k_shape_box && type_b == k_shape_box) {
+        BoxPair p;
+        p.a = rotation_axes(pose_a.rotation);
+        p.b = rotation_axes(pose_b.rotation);
+        p.half_a = shape_a.half_extents;
+        p.half_b = shape_b.half_extents;
+        p.offset = offset;
+        return collide_boxes(p, old_axis, max_separation);
+    }
+    if (type_a == k_shape_box) {
+        return collide_box_sphere(rotation_axes(pose_a.rotation), shape_a.half_extents, shape_b.half_extents.x, offset,
+                                  max_separation);
+    }
+    if (type_b == k_shape_box) {
+        vec3 from_b = vec3(-offset.x, -offset.y, -offset.z);
+        return swap_bodies(collide_box_sphere(rotation_axes(pose_b.rotation), shape_b.half_extents,
+                                              shape_a.half_extents.x, from_b, max_separation),
+                           from_b);
+    }
+    return collide_spheres(shape_a.half_extents.x, shape_b.half_extents.x, offset, max_separation);
+}
+
+// Where two bodies ask for different rules, the lower number wins.
+inline float combine(float a, float b, uint rule_a, uint rule_b)
+{
+    uint rule = min(rule_a, rule_b);
+    precise float average = 0.5f * (a + b);
+    precise float product = a * b;
+    if (rule == k_combine_average) return average;
+    if (rule == k_combine_minimum) return min(a, b);
+    if (rule == k_combine_maximum) return max(a, b);
+    return product;
+}
+
+inline float combine_friction(BodyProperties a, BodyProperties b)
+{
+    return combine(a.friction, b.friction, a.combine & 255u, b.combine & 255u);
+}
+
+inline float combine_restitution(BodyProperties a, BodyProperties b)
+{
+    return combine(a.restitution, b.restitution, a.combine >> 8, b.combine >> 8);
+}
+
+// ---- warm start: what the last step's points pass on ----
+
+// A point without a namesake takes the old point nearest to it, if there is one within this distance (m): feature ids
+// flicker when a vertex lies on a side plane, and stacks topple where that costs the impulse.
+const float k_anchor_match = 0.04f;
+
+// The old manifold's points, as far as matching needs them.
+struct OldPoints {
+    uint count;
+    vec3 anchors[4]; // from A's centre
+    uint features[4];
+};
+
+inline OldPoints no_old_points()
+{
+    OldPoints old;
+    old.count = 0u;
+    for (uint i = 0u; i < 4u; i += 1u) {
+        old.anchors[i] = vec3(0.0f, 0.0f, 0.0f);
+        old.features[i] = 0u;
+    }
+    return old;
+}
+
+struct PointMatch {
+    uint old_index[4]; // for each new point the old one, or k_none
+};
+
+// Feature ids say the same only on the same separating axis.
+inline PointMatch match_points(ContactGeometry g, OldPoints old, bool same_axis)
+{
+    PointMatch match;
+    uint taken = 0u;
+    for (uint i = 0u; i < 4u; i += 1u) {
+        match.old_index[i] = k_none;
+        for (uint k = 0u; k < old.count; k += 1u) {
+            bool is_free = ((taken >> k) & 1u) == 0u && match.old_index[i] == k_none;
+            if (same_axis && i < g.count && is_free && old.features[k] == g.features[i]) {
+                match.old_index[i] = k;
+                taken |= 1u << k;
+            }
+        }
+    }
+    for (uint i = 0u; i < g.count; i += 1u) {
+        if (match.old_index[i] == k_none) {
+            float nearest = k_anchor_match * k_anchor_match;
+            for (uint k = 0u; k < old.count; k += 1u) {
+                precise vec3 apart = old.anchors[k] - g.points[i];
+                float square = dot3(apart, apart);
+                if (((taken >> k) & 1u) == 0u && square < nearest) {
+                    nearest = square;
+                    match.old_index[i] = k;
+                }
+            }
+            if (match.old_index[i] != k_none) taken |= 1u << match.old_index[i];
+        }
+    }
+    return match;
+}
+
+// Point i of the new manifold; `offset` leads from A's centre to B's.
+inline ManifoldPoint make_point(ContactGeometry g, vec3 offset, uint i)
+{
+    precise vec3 anchor_b = g.points[i] - offset;
+    ManifoldPoint point;
+    point.anchor_a = g.points[i];
+    point.separation = g.separations[i];
+    point.anchor_b = anchor_b;
+    point.feature_id = g.features[i];
+    point.normal_impulse = 0.0f;
+    point.tangent_impulse_1 = 0.0f;
+    point.tangent_impulse_2 = 0.0f;
+    point.reserved = 0.0f;
+    return point;
+}
+
+// Gives a new point the impulse of an old one. Friction is carried as a vector: the tangents of two normals that are
+// nearly the same may lie far apart.
+inline ManifoldPoint carry_impulse(ManifoldPoint point, vec3 normal, ManifoldPoint old, vec3 old_normal)
+{
+    Tangents t = contact_tangents(normal);
+    Tangents old_t = contact_tangents(old_normal);
+    precise vec3 sideways = old_t.t1 * old.tangent_impulse_1 + old_t.t2 * old.tangent_impulse_2;
+    point.normal_impulse = old.normal_impulse;
+    point.tangent_impulse_1 = dot3(sideways, t.t1);
+    point.tangent_impulse_2 = dot3(sideways, t.t2);
+    return point;
+}
+
+inline Manifold make_manifold(Pair pair, ContactGeometry g, uint old_colour, BodyProperties a, BodyProperties b)
+{
+    Manifold manifold;
+    manifold.body_a = pair.body_a;
+    manifold.body_b = pair.body_b;
+    manifold.point_count = g.count;
+    manifold.colour = old_colour;
+    manifold.normal = g.normal;
+    manifold.axis = g.axis;
+    manifold.friction = combine_friction(a, b);
+    manifold.restitution = combine_restitution(a, b);
+    manifold.reserved_1 = 0u;
+    manifold.reserved_2 = 0u;
+    return manifold;
+}

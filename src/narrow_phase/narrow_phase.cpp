@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The launches of the narrow phase, in order.
+#include "narrow_phase/narrow_phase.h"
+
+#include "step.h"
+
+namespace talus::engine {
+
+void narrow_phase(Device& device, const StepPlan& plan) {
+    device.run({.kernel = clear_pair_table, .items = plan.table_size});
+    device.run({.kernel = fill_pair_table, .slot = k_dispatch_old_pairs});
+    device.run({.kernel = collide_pairs, .slot = k_dispatch_pairs});
+}
+
+} // namespace talus::engine

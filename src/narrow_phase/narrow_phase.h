@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Narrow phase: candidate pairs -> manifolds of at most four points, with the last step's impulses (thesis, section 3.3).
+#pragma once
+
+#include "device/device.h"
+
+namespace talus::engine {
+
+struct StepPlan;
+
+/// Fills Manifolds and ManifoldPoints, one and four a pair.
+void narrow_phase(Device&, const StepPlan&);
+
+extern const Kernel clear_pair_table;
+extern const Kernel fill_pair_table;
+extern const Kernel collide_pairs;
+
+} // namespace talus::engine

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What the host launches for a scan and for a sort.
+#include "primitives/primitives.h"
+
+#include "primitives/kernels.h"
+
+namespace talus::engine {
+namespace {
+
+static_assert(k_scan_tile == k_scan_group * k_scan_run);
+static_assert(k_digits == 1u << k_digit_bits);
+static_assert(k_sort_group == k_digits && k_sort_group == 32 * k_mask_words && k_sort_tile % k_sort_group == 0);
+
+// Up to here one group is done before three dependent dispatches would be.
+constexpr uint k_longest_group_scan = 4 * k_scan_tile;
+
+void reserve_words(Device& device, BufferId buffer, std::size_t words) {
+    if (device.size(buffer) < words * sizeof(uint)) device.grow(buffer, words * sizeof(uint));
+}
+
+/// Scans scan_count(Counters[count_counter], divisor, factor) words.
+void scan(Device& device, BufferId values, uint capacity, uint count_counter, uint total_counter, uint divisor,
+          uint factor) {
+    const uint value_capacity = scan_count(capacity, divisor, factor);
+    const std::array<uint, 4> args{count_counter, total_counter, divisor, factor};
+    if (value_capacity <= k_longest_group_scan) {
+        device.run({.kernel = scan_group, .items = 1, .args = args, .bindings = {{"Values", values}}});
+        return;
+    }
+    // The sums are one for every k_scan_tile values. `divisor` things make `factor` values, and factor divides the
+    // tile.
+    const std::array<uint, 4> sum_args{count_counter, total_counter, divisor * (k_scan_tile / factor), 1};
+    reserve_words(device, BufferId::ScanSums, divide_up(value_capacity, k_scan_tile));
+    device.run({.kernel = sum_tiles, .items = value_capacity, .args = args, .bindings = {{"Values", values}}});
+    device.run({.kernel = scan_group, .items = 1, .args = sum_args, .bindings = {{"Values", BufferId::ScanSums}}});
+    device.run({.kernel = scan_tiles, .items = value_capacity, .args = args, .bindings = {{"Values", values}}});
+}
+
+} // namespace
+
+void exclusive_scan(Device& device, BufferId values, uint capacity, uint count_counter, uint total_counter) {
+    scan(device, values, capacity, count_counter, total_counter, 1, 1);
+}
+
+void sort_by_key(Device& device, const Sort& sort) {
+    // A swap hands the scratch buffers to the caller, so they must be as large as what they are swapped for.
+    reserve_words(device, sort.keys_swap, device.size(sort.keys) / sizeof(uint));
+    reserve_words(device, sort.values_swap, device.size(sort.values) / sizeof(uint));
+    reserve_words(device, BufferId::DigitCounts, scan_count(sort.capacity, k_sort_tile, k_digits));
+
+    for (uint shift = 0; shift < sort.bits; shift += k_digit_bits) {
+        const std::array<uint, 4> args{sort.count_counter, shift};
+        device.run({.kernel = count_digits,
+                    .items = sort.capacity,
+                    .slot = sort.slot,
+                    .args = args,
+                    .bindings = {{"Keys", sort.keys}}});
+        scan(device, BufferId::DigitCounts, sort.capacity, sort.count_counter, k_none, k_sort_tile, k_digits);
+        device.run({.kernel = scatter_keys,
+                    .items = sort.capacity,
+                    .slot = sort.slot,
+                    .args = args,
+                    .bindings = {{"Keys", sort.keys},
+                                 {"Values", sort.values},
+                                 {"SortedKeys", sort.keys_swap},
+                                 {"SortedValues", sort.values_swap}}});
+        device.swap(sort.keys, sort.keys_swap);
+        device.swap(sort.values, sort.values_swap);
+    }
+}
+
+void copy_key_offsets(Device& device, BufferId offsets, uint count_counter) {
+    reserve_words(device, offsets, k_digits + 1);
+    device.run({.kernel = copy_digit_offsets,
+                .items = k_digits + 1,
+                .args = {count_counter},
+                .bindings = {{"Offsets", offsets}}});
+}
+
+} // namespace talus::engine

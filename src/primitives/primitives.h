@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Prefix sums and sorting on a device. They know nothing of physics: buffers of words go in, the number of words is
+// read on the device. No result depends on the order in which a device runs its invocations, nor on how large buffers
+// are.
+//
+// `capacity` is what the host knows: the count is never more. It decides how much is launched, so it may be generous,
+// and the scratch buffers ScanSums and DigitCounts are grown to it.
+#pragma once
+
+#include "device/device.h"
+
+namespace talus::engine {
+
+/// Replaces each of the first Counters[count_counter] words of `values` by the sum of those before it, and writes the
+/// sum of all to Counters[total_counter], unless that is k_none; it must not be the count's own word. Sums are modulo
+/// 2^32.
+void exclusive_scan(Device&, BufferId values, uint capacity, uint count_counter, uint total_counter);
+
+/// What a sort works on.
+struct Sort {
+    BufferId keys;
+    BufferId values;      ///< move with their keys
+    BufferId keys_swap;   ///< scratch
+    BufferId values_swap; ///< scratch
+    uint capacity;        ///< keys
+    uint count_counter;   ///< word of Counters with the number of keys
+    uint bits = 32;       ///< keys are below 2^bits
+    /// Entry of Dispatches with a group for each k_sort_tile keys; k_none: launched for `capacity` keys.
+    uint slot = k_none;
+};
+
+/// Sorts by key, lowest first; equal keys keep their order. Takes one pass for every 8 bits. Where the number of passes
+/// is odd, `keys` and `values` change places with the two scratch buffers (Device::swap).
+void sort_by_key(Device&, const Sort&);
+
+/// After sort_by_key with at most 8 bits: writes to `offsets` the number of keys below each of 0 to 255, and the number
+/// of all as word 256.
+void copy_key_offsets(Device&, BufferId offsets, uint count_counter);
+
+} // namespace talus::engine

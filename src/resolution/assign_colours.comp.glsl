@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// One group: colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its
+// bodies takes the smallest colour free at both (Jones and Plassmann).
+// Reads: Counters, Manifolds, Shapes.
+// Writes: ManifoldColours; BodyColours and Uncoloured as it goes.
+// Needs: a barrier after keep_colours.
+// Overflow: a manifold with no colour left at its bodies joins the overflow set.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "resolution/colouring.shared.glsl"
+
+layout(local_size_x = 1024) in;
+
+layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
+layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) writeonly buffer ManifoldColours { uint manifold_colours[]; };
+layout(std430) coherent buffer BodyColours { uint body_colours[]; };
+layout(std430) coherent buffer Uncoloured { uint uncoloured[]; };
+
+shared uint left_over; // manifolds that wait for a later round
+
+struct Edge {
+    uint rank;
+    uint body[2];
+    bool movable[2];
+};
+
+Edge load_edge(uint pair)
+{
+    Edge edge;
+    edge.body[0] = manifolds[pair].body_a;
+    edge.body[1] = manifolds[pair].body_b;
+    edge.rank = edge_rank(edge.body[0], edge.body[1]);
+    for (uint end = 0u; end < 2u; ++end)
+        edge.movable[end] = is_movable(shapes[edge.body[end]]);
+    return edge;
+}
+
+uint free_colour(Edge edge)
+{
+    uint low = 0u;
+    uint high = 0u;
+    for (uint end = 0u; end < 2u; ++end) {
+        if (edge.movable[end]) {
+            low |= body_colours[body_word(edge.body[end], k_used_low)];
+            high |= body_colours[body_word(edge.body[end], k_used_high)];
+        }
+    }
+    return first_free_colour(low, high);
+}
+
+void propose(uint entry, uint rank_word)
+{
+    uint pair = uncoloured[entry];
+    if (pair == k_none) return;
+    Edge edge = load_edge(pair);
+    if (free_colour(edge) == k_overflow_colour) { // colours are never given back
+        manifold_colours[pair] = k_overflow_colour;
+        uncoloured[entry] = k_none;
+        return;
+    }
+    for (uint end = 0u; end < 2u; ++end) {
+        if (edge.movable[end]) atomicMax(body_colours[body_word(edge.body[end], rank_word)], edge.rank);
+    }
+}
+
+void decide(uint entry, uint rank_word, uint next_rank_word)
+{
+    uint pair = uncoloured[entry];
+    if (pair == k_none) return;
+    Edge edge = load_edge(pair);
+    bool wins = true;
+    for (uint end = 0u; end < 2u; ++end) {
+        if (edge.movable[end]) {
+            wins = wins && body_colours[body_word(edge.body[end], rank_word)] == edge.rank;
+            body_colours[body_word(edge.body[end], next_rank_word)] = 0u;
+        }
+    }
+    if (!wins) {
+        atomicAdd(left_over, 1u);
+        return;
+    }
+    uint colour = free_colour(edge);
+    uint word = colour < 32u ? k_used_low : k_used_high;
+    for (uint end = 0u; end < 2u; ++end) {
+        if (edge.movable[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (colour & 31u);
+    }
+    manifold_colours[pair] = colour;
+    uncoloured[entry] = k_none;
+}
+
+void main()
+{
+    uint me = gl_LocalInvocationID.x;
+    uint entry_count = counters[k_counter_uncoloured];
+    uint rank_word = k_best_rank;
+    bool done = entry_count == 0u;
+    while (!done) {
+        if (me == 0u) left_over = 0u;
+        for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
+            propose(entry, rank_word);
+        memoryBarrierBuffer();
+        barrier();
+        uint next_rank_word = 2u * k_best_rank + 1u - rank_word;
+        for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
+            decide(entry, rank_word, next_rank_word);
+        memoryBarrierBuffer();
+        barrier();
+        done = left_over == 0u;
+        rank_word = next_rank_word;
+        barrier();
+    }
+}

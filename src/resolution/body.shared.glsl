@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// What the resolution does to one body: inertia, forces, gyroscopic torque, positions.
+
+// R diag(1/I) R^T, with R's columns the body's axes.
+inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movable)
+{
+    Axes r = rotation_axes(rotation);
+    vec3 d = inverse_inertia;
+    precise float xx = r.x.x * r.x.x * d.x + r.y.x * r.y.x * d.y + r.z.x * r.z.x * d.z;
+    precise float yy = r.x.y * r.x.y * d.x + r.y.y * r.y.y * d.y + r.z.y * r.z.y * d.z;
+    precise float zz = r.x.z * r.x.z * d.x + r.y.z * r.y.z * d.y + r.z.z * r.z.z * d.z;
+    precise float xy = r.x.x * r.x.y * d.x + r.y.x * r.y.y * d.y + r.z.x * r.z.y * d.z;
+    precise float xz = r.x.x * r.x.z * d.x + r.y.x * r.y.z * d.y + r.z.x * r.z.z * d.z;
+    precise float yz = r.x.y * r.x.z * d.x + r.y.y * r.y.z * d.y + r.z.y * r.z.z * d.z;
+    float on = movable ? 1.0f : 0.0f;
+    BodyInertia m;
+    m.xx = on * xx;
+    m.yy = on * yy;
+    m.zz = on * zz;
+    m.xy = on * xy;
+    m.xz = on * xz;
+    m.yz = on * yz;
+    m.movable = movable ? 1u : 0u;
+    m.reserved = 0u;
+    return m;
+}
+
+inline vec3 multiply_inertia(BodyInertia m, vec3 v)
+{
+    precise float x = m.xx * v.x + m.xy * v.y + m.xz * v.z;
+    precise float y = m.xy * v.x + m.yy * v.y + m.yz * v.z;
+    precise float z = m.xz * v.x + m.yz * v.y + m.zz * v.z;
+    return vec3(x, y, z);
+}
+
+inline BodyDelta no_delta()
+{
+    BodyDelta d;
+    d.position = vec3(0.0f, 0.0f, 0.0f);
+    d.reserved = 0.0f;
+    d.rotation = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    return d;
+}
+
+// v shortened to at most `limit`.
+inline vec3 limit_length(vec3 v, float limit)
+{
+    float square = dot3(v, v);
+    precise float square_limit = limit * limit;
+    if (!(square > square_limit)) return v;
+    precise float scale = limit * inverse_sqrt(square);
+    return scale3(v, scale);
+}
+
+// Angular velocity after h under no torque, in body axes: Euler's equation I w' = -w x I w by the implicit midpoint
+// rule, which keeps the kinetic energy and the length of the angular momentum. Four rounds of fixed-point iteration
+// reach float precision while |w| h is below about a third.
+inline vec3 turn_freely(vec3 w, vec3 inverse_inertia, float h)
+{
+    vec3 inertia = vec3(reciprocal(inverse_inertia.x), reciprocal(inverse_inertia.y), reciprocal(inverse_inertia.z));
+    vec3 middle = w;
+    for (uint i = 0u; i < 4u; i += 1u) {
+        vec3 torque = cross3(multiply3(inertia, middle), middle);
+        precise vec3 change = multiply3(inverse_inertia, torque) * (0.5f * h);
+        precise vec3 next = w + change;
+        middle = next;
+    }
+    precise vec3 result = 2.0f * middle - w;
+    return result;
+}
+
+// Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits.
+// `rotation` is the present one. Damping is the implicit 1 / (1 + h c).
+inline BodyVelocity integrate_velocity(BodyVelocity velocity, vec4 rotation, BodyProperties body, BodyInertia inertia,
+                                       BodyLoad load, bool rigid, Parameters p)
+{
+    precise vec3 linear = velocity.linear + (p.gravity * body.gravity_scale + load.force * velocity.inverse_mass) * p.h;
+    if (!rigid) { // a kinematic body: gravity if its caller asked for it, nothing else
+        velocity.linear = linear;
+        return velocity;
+    }
+    precise vec3 angular = velocity.angular + multiply_inertia(inertia, load.torque) * p.h;
+    precise float linear_factor = reciprocal(1.0f + p.h * body.linear_damping);
+    precise float angular_factor = reciprocal(1.0f + p.h * body.angular_damping);
+    vec3 d = body.inverse_inertia;
+    if (d.x != d.y || d.y != d.z) {
+        angular = rotate(rotation, turn_freely(rotate_back(rotation, angular), d, p.h));
+    }
+    velocity.linear = limit_length(scale3(linear, linear_factor), p.max_linear_speed);
+    velocity.angular = limit_length(scale3(angular, angular_factor), p.max_angular_speed);
+    return velocity;
+}
+
+// Of a body whose velocity became non-finite: it stays where it is, and contacts find it as heavy as a static body.
+inline BodyVelocity frozen_velocity()
+{
+    BodyVelocity velocity;
+    velocity.linear = vec3(0.0f, 0.0f, 0.0f);
+    velocity.inverse_mass = 0.0f;
+    velocity.angular = vec3(0.0f, 0.0f, 0.0f);
+    velocity.reserved = 0.0f;
+    return velocity;
+}
+
+inline BodyDelta integrate_position(BodyDelta delta, BodyVelocity velocity, float h)
+{
+    delta.position = add_scaled(delta.position, velocity.linear, h);
+    delta.rotation = integrate_rotation(delta.rotation, velocity.angular, h);
+    return delta;
+}
+
+// The pose at the end of the step. The delta turns the world, so it comes after the rotation that the body had.
+inline BodyPose apply_delta(BodyPose pose, BodyDelta delta)
+{
+    precise vec3 position = pose.position + delta.position;
+    pose.position = position;
+    pose.rotation = normalise_quaternion(multiply_quaternions(delta.rotation, pose.rotation));
+    return pose;
+}
+
+inline bool is_finite_motion(BodyPose pose, BodyVelocity velocity)
+{
+    return is_finite3(pose.position) && is_finite(pose.rotation.x) && is_finite(pose.rotation.y) &&
+           is_finite(pose.rotation.z) && is_finite(pose.rotation.w) && is_finite3(velocity.linear) &&
+           is_finite3(velocity.angular);
+}
+
+inline BodyLoad no_load()
+{
+    BodyLoad load;
+    load.force = vec3(0.0f, 0.0f, 0.0f);
+    load.reserved_1 = 0.0f;
+    load.torque = vec3(0.0f, 0.0f, 0.0f);
+    load.reserved_2 = 0.0f;
+    return load;
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The passes over one body: integration of velocities and positions. Before this file the kernel defines load_velocity
+// and store_velocity, as for contact_passes.glsl, and declares Inertias and Deltas. The CPU's counterpart is
+// body_passes.h.
+// Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), Deltas.
+
+layout(std430) buffer Poses { BodyPose poses[]; };
+layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) readonly buffer Properties { BodyProperties properties[]; };
+layout(std430) readonly buffer Loads { BodyLoad loads[]; };
+
+bool moves(uint body)
+{
+    uint kind = shapes[body].type >> 8;
+    return (kind == k_kind_rigid || kind == k_kind_kinematic) && (poses[body].flags & k_body_frozen) == 0u;
+}
+
+void integrate_body_velocity(uint body)
+{
+    if (!moves(body)) return;
+    vec4 rotation = multiply_quaternions(deltas[body].rotation, poses[body].rotation);
+    BodyVelocity velocity = integrate_velocity(load_velocity(body), rotation, properties[body], inertias[body],
+                                               loads[body], is_movable(shapes[body]), parameters);
+    if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
+        velocity = frozen_velocity();
+        poses[body].flags |= k_body_frozen;
+        atomicAdd(counters[k_counter_frozen_bodies], 1u);
+    }
+    store_velocity(body, velocity);
+}
+
+void integrate_body_position(uint body)
+{
+    if (moves(body)) deltas[body] = integrate_position(deltas[body], load_velocity(body), parameters.h);
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Colouring of the constraint graph: manifolds are edges between bodies, and no two edges of one colour may meet at a
+// body that can move. Jones and Plassmann's scheme (1993): an edge takes the smallest free colour once it outranks all
+// uncoloured edges at both its bodies.
+//
+// The rank of an edge is a one-to-one mix of a XOR b. At a body all edges lead to different other bodies, so all ranks
+// there differ: no ties, though ranks of edges far apart may be equal. The result is that of a greedy colouring in the
+// order of ranks, whatever the order in which edges are listed or threads run.
+
+inline uint edge_rank(uint body_a, uint body_b)
+{
+    uint x = (body_a ^ body_b) + 1u;
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    x ^= x >> 16;
+    return x; // not 0, as only 0 maps to 0
+}
+
+// The lowest colour that is free in both sets of used colours (64 bits in two words), or the overflow set.
+inline uint first_free_colour(uint used_low, uint used_high)
+{
+    for (uint colour = 0u; colour < k_max_colours; colour += 1u) {
+        uint word = colour < 32u ? used_low : used_high;
+        if (((word >> (colour & 31u)) & 1u) == 0u) return colour;
+    }
+    return k_overflow_colour;
+}
+
+// Words of BodyColours, four a body.
+const uint k_used_low = 0u;  // colours 0-31 in use at the body, a bit each
+const uint k_used_high = 1u; // colours 32-63
+const uint k_best_rank = 2u; // highest rank of the uncoloured edges; two words that take turns, round by round
+
+inline uint body_word(uint body, uint word) { return 4u * body + word; }

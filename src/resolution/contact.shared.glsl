@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// The rows of one contact point: a normal and two friction rows, solved by sequential impulses (thesis, section 3.4).
+//
+// Symbols: v, w linear and angular velocity; r anchor from the body's centre; n normal from A to B; t1, t2 tangents;
+// K = J M^-1 J^T (equation 3.15 without the inversion); lambda accumulated impulse.
+
+// 1 / K for a row with direction `d` at the anchors: the effective mass (equations 3.6 to 3.15).
+inline float effective_mass(vec3 d, vec3 r_a, vec3 r_b, float inverse_mass_a, BodyInertia inertia_a,
+                            float inverse_mass_b, BodyInertia inertia_b)
+{
+    vec3 arm_a = cross3(r_a, d);
+    vec3 arm_b = cross3(r_b, d);
+    precise float k = inverse_mass_a + inverse_mass_b + dot3(arm_a, multiply_inertia(inertia_a, arm_a)) +
+                      dot3(arm_b, multiply_inertia(inertia_b, arm_b));
+    return k > 0.0f ? reciprocal(k) : 0.0f;
+}
+
+// Velocity of B's anchor as seen from A's: J V of equation 3.3 before it is taken along a direction.
+inline vec3 relative_velocity(BodyVelocity a, BodyVelocity b, vec3 r_a, vec3 r_b)
+{
+    precise vec3 v = b.linear + cross3(b.angular, r_b) - a.linear - cross3(a.angular, r_a);
+    return v;
+}
+
+struct VelocityPair {
+    BodyVelocity a;
+    BodyVelocity b;
+};
+
+// Applies the impulse P to B and -P to A (equation 3.13).
+inline VelocityPair apply_impulse(VelocityPair v, vec3 impulse, vec3 r_a, vec3 r_b, BodyInertia inertia_a,
+                                  BodyInertia inertia_b)
+{
+    precise vec3 linear_a = v.a.linear - impulse * v.a.inverse_mass;
+    precise vec3 linear_b = v.b.linear + impulse * v.b.inverse_mass;
+    precise vec3 angular_a = v.a.angular - multiply_inertia(inertia_a, cross3(r_a, impulse));
+    precise vec3 angular_b = v.b.angular + multiply_inertia(inertia_b, cross3(r_b, impulse));
+    v.a.linear = linear_a;
+    v.b.linear = linear_b;
+    v.a.angular = angular_a;
+    v.b.angular = angular_b;
+    return v;
+}
+
+// The accumulated impulse of a point as a vector.
+inline vec3 point_impulse(ContactConstraintPoint point, vec3 n, Tangents t)
+{
+    precise vec3 impulse = n * point.normal_impulse + t.t1 * point.tangent_impulse_1 + t.t2 * point.tangent_impulse_2;
+    return impulse;
+}
+
+// Separation now: what it was, and how far the anchors have moved since along the normal (equation 3.16).
+inline float current_separation(ContactConstraintPoint point, vec3 n, BodyDelta a, BodyDelta b)
+{
+    precise vec3 moved = b.position + rotate(b.rotation, point.anchor_b) - a.position - rotate(a.rotation, point.anchor_a);
+    precise float separation = point.base_separation + dot3(moved, n);
+    return separation;
+}
+
+struct Softness {
+    float bias_rate;     // 1/s
+    float mass_scale;    // 1 for a rigid row
+    float impulse_scale; // 0 for a rigid row
+};
+
+inline Softness contact_softness(bool against_static, Parameters p)
+{
+    Softness s;
+    s.bias_rate = against_static ? p.static_bias_rate : p.bias_rate;
+    s.mass_scale = against_static ? p.static_mass_scale : p.mass_scale;
+    s.impulse_scale = against_static ? p.static_impulse_scale : p.impulse_scale;
+    return s;
+}
+
+// What the normal row aims at in a pass: the bias velocity b of equation 3.7 and how soft the row is.
+inline Softness row_softness(float separation, bool use_bias, Softness soft)
+{
+    Softness rigid;
+    rigid.bias_rate = 0.0f;
+    rigid.mass_scale = 1.0f;
+    rigid.impulse_scale = 0.0f;
+    return separation <= 0.0f && use_bias ? soft : rigid;
+}
+
+inline float row_bias(float separation, bool use_bias, Softness soft, Parameters p)
+{
+    precise float gap = separation * p.inv_h; // may close within the sub-step, not more
+    precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -p.contact_push_speed);
+    if (separation > 0.0f) return gap;
+    return use_bias ? push : 0.0f;
+}
+
+// New accumulated normal impulse (equation 3.14, accumulated and clamped to push only).
+inline float solve_normal_row(ContactConstraintPoint point, float normal_velocity, float bias, Softness soft)
+{
+    precise float change = -point.normal_mass * soft.mass_scale * (normal_velocity + bias) -
+                           soft.impulse_scale * point.normal_impulse;
+    precise float impulse = max(point.normal_impulse + change, 0.0f);
+    return impulse;
+}
+
+// New accumulated friction impulses, held inside the cone: a circle of radius mu times the normal impulse.
+inline vec2 solve_friction_rows(ContactConstraintPoint point, float velocity_1, float velocity_2, float friction)
+{
+    precise float impulse_1 = point.tangent_impulse_1 - point.tangent_mass_1 * velocity_1;
+    precise float impulse_2 = point.tangent_impulse_2 - point.tangent_mass_2 * velocity_2;
+    precise float limit = friction * point.normal_impulse;
+    precise float square = impulse_1 * impulse_1 + impulse_2 * impulse_2;
+    precise float square_limit = limit * limit;
+    if (square <= square_limit) return vec2(impulse_1, impulse_2);
+    precise float scale = limit * inverse_sqrt(square);
+    precise float held_1 = impulse_1 * scale;
+    precise float held_2 = impulse_2 * scale;
+    return vec2(held_1, held_2);
+}
+
+// A body pair and a point in the midst of the solver's pass over a manifold.
+struct PointState {
+    VelocityPair velocities;
+    ContactConstraintPoint point;
+};
+
+// One pass over one point: friction first, as keeping bodies apart matters more and the last row wins.
+inline PointState solve_point(PointState s, vec3 n, Tangents t, float friction, float separation, bool use_bias,
+                              Softness soft, BodyInertia inertia_a, BodyInertia inertia_b, Parameters p)
+{
+    vec3 r_a = s.point.anchor_a;
+    vec3 r_b = s.point.anchor_b;
+    vec3 dv = relative_velocity(s.velocities.a, s.velocities.b, r_a, r_b);
+    vec2 tangent = solve_friction_rows(s.point, dot3(dv, t.t1), dot3(dv, t.t2), friction);
+    precise float change_1 = tangent.x - s.point.tangent_impulse_1;
+    precise float change_2 = tangent.y - s.point.tangent_impulse_2;
+    precise vec3 sideways = t.t1 * change_1 + t.t2 * change_2;
+    s.point.tangent_impulse_1 = tangent.x;
+    s.point.tangent_impulse_2 = tangent.y;
+    s.velocities = apply_impulse(s.velocities, sideways, r_a, r_b, inertia_a, inertia_b);
+
+    dv = relative_velocity(s.velocities.a, s.velocities.b, r_a, r_b);
+    float bias = row_bias(separation, use_bias, soft, p);
+    float impulse = solve_normal_row(s.point, dot3(dv, n), bias, row_softness(separation, use_bias, soft));
+    precise float change = impulse - s.point.normal_impulse;
+    s.point.normal_impulse = impulse;
+    s.point.max_normal_impulse = max(s.point.max_normal_impulse, impulse);
+    s.velocities = apply_impulse(s.velocities, scale3(n, change), r_a, r_b, inertia_a, inertia_b);
+    return s;
+}
+
+// Restitution, once at the end of the step: a point that was hit faster than the threshold leaves with e times the
+// speed of its approach.
+inline PointState apply_point_restitution(PointState s, vec3 n, float restitution, BodyInertia inertia_a,
+                                          BodyInertia inertia_b, Parameters p)
+{
+    if (s.point.approach_speed > -p.restitution_threshold || s.point.max_normal_impulse == 0.0f) return s;
+    vec3 dv = relative_velocity(s.velocities.a, s.velocities.b, s.point.anchor_a, s.point.anchor_b);
+    Softness rigid = row_softness(1.0f, false, contact_softness(false, p));
+    precise float bias = restitution * s.point.approach_speed;
+    float impulse = solve_normal_row(s.point, dot3(dv, n), bias, rigid);
+    precise float change = impulse - s.point.normal_impulse;
+    s.point.normal_impulse = impulse;
+    s.velocities =
+        apply_impulse(s.velocities, scale3(n, change), s.point.anchor_a, s.point.anchor_b, inertia_a, inertia_b);
+    return s;
+}
+
+inline ContactConstraint make_constraint(Manifold manifold, uint manifold_index, BodyInertia inertia_a,
+                                         BodyInertia inertia_b)
+{
+    ContactConstraint c;
+    c.body_a = manifold.body_a;
+    c.body_b = manifold.body_b;
+    c.manifold = manifold_index;
+    c.point_count = manifold.point_count;
+    c.normal = manifold.normal;
+    c.friction = manifold.friction;
+    c.restitution = manifold.restitution;
+    c.against_static = (inertia_a.movable & inertia_b.movable) ^ 1u;
+    c.reserved_1 = 0u;
+    c.reserved_2 = 0u;
+    return c;
+}
+
+inline ContactConstraintPoint prepare_point(ManifoldPoint old, vec3 n, Tangents t, BodyVelocity a, BodyVelocity b,
+                                            BodyInertia inertia_a, BodyInertia inertia_b)
+{
+    ContactConstraintPoint point;
+    point.anchor_a = old.anchor_a;
+    point.anchor_b = old.anchor_b;
+    precise vec3 apart = old.anchor_b - old.anchor_a;
+    precise float base = old.separation - dot3(apart, n);
+    point.base_separation = base;
+    point.normal_mass =
+        effective_mass(n, old.anchor_a, old.anchor_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
+    point.tangent_mass_1 =
+        effective_mass(t.t1, old.anchor_a, old.anchor_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
+    point.tangent_mass_2 =
+        effective_mass(t.t2, old.anchor_a, old.anchor_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
+    point.approach_speed = dot3(relative_velocity(a, b, old.anchor_a, old.anchor_b), n);
+    point.max_normal_impulse = 0.0f;
+    point.normal_impulse = old.normal_impulse;
+    point.tangent_impulse_1 = old.tangent_impulse_1;
+    point.tangent_impulse_2 = old.tangent_impulse_2;
+    point.reserved = 0.0f;
+    return point;
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body slot: moves it for one sub-step.
+// Reads: Shapes, Poses, Velocities.
+// Writes: Deltas.
+// Needs: a barrier after prepare_bodies, and after the pass before.
+// Overflow: none; launched empty after a step that did not fit.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "resolution/body.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
+layout(std430) buffer Deltas { BodyDelta deltas[]; };
+layout(std430) buffer Counters { uint counters[]; };
+
+BodyVelocity load_velocity(uint body) { return velocities[body]; }
+void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = velocity; }
+
+#include "resolution/body_passes.glsl"
+
+void main()
+{
+    uint body = item_index();
+    if (body < parameters.body_count) integrate_body_position(body);
+}

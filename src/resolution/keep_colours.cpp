@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of keep_colours.comp.glsl.
+#include "device/cpu/cpu_state.h"
+#include "resolution/resolution.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void keep_colours_on_cpu(CpuState& state, const Launch&) {
+    const auto use_colour = [&](uint body, uint colour) {
+        if (!is_movable(state.shapes[body])) return;
+        const uint word = colour < 32 ? k_used_low : k_used_high;
+        state.body_colours[body_word(body, word)] |= 1u << (colour & 31u);
+    };
+    for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
+        const Manifold& manifold = state.manifolds[pair];
+        uint colour = k_inactive_colour;
+        if (manifold.point_count > 0) {
+            state.counters[k_counter_contact_count] += manifold.point_count;
+            colour = manifold.colour;
+            if (colour < k_max_colours) {
+                use_colour(manifold.body_a, colour);
+                use_colour(manifold.body_b, colour);
+            } else {
+                state.uncoloured[state.counters[k_counter_uncoloured]++] = pair;
+            }
+        }
+        state.manifold_colours[pair] = colour;
+        state.manifold_order[pair] = pair;
+    }
+}
+
+const Kernel keep_colours{"resolution/keep_colours", keep_colours_on_cpu};
+
+} // namespace talus::engine

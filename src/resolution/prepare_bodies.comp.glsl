@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body slot: its inertia in world axes, and no movement yet.
+// Reads: Poses, Properties, Shapes.
+// Writes: Inertias, Deltas.
+// Needs: nothing.
+// Overflow: none; launched empty after a step that did not fit.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "resolution/body.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Poses { BodyPose poses[]; };
+layout(std430) readonly buffer Properties { BodyProperties properties[]; };
+layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) writeonly buffer Inertias { BodyInertia inertias[]; };
+layout(std430) writeonly buffer Deltas { BodyDelta deltas[]; };
+
+void main()
+{
+    uint body = item_index();
+    if (body >= parameters.body_count) return;
+    BodyPose pose = poses[body];
+    bool movable = is_movable(shapes[body]) && (pose.flags & k_body_frozen) == 0u;
+    inertias[body] = world_inertia(pose.rotation, properties[body].inverse_inertia, movable);
+    deltas[body] = no_delta();
+}

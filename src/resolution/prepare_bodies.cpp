@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of prepare_bodies.comp.glsl.
+#include "device/cpu/cpu_state.h"
+#include "resolution/resolution.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void prepare_bodies_on_cpu(CpuState& state, const Launch&) {
+    state.parallel(state.parameters.body_count, [&](uint body) {
+        const BodyPose& pose = state.poses[body];
+        const bool movable = is_movable(state.shapes[body]) && (pose.flags & k_body_frozen) == 0;
+        state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia, movable);
+        state.deltas[body] = no_delta();
+    });
+}
+
+const Kernel prepare_bodies{"resolution/prepare_bodies", prepare_bodies_on_cpu};
+
+} // namespace talus::engine

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
+// Reads: Counters, ManifoldOrder, Manifolds, ManifoldPoints, Velocities, Inertias.
+// Writes: Constraints, ConstraintPoints.
+// Needs: barriers after plan_colours and prepare_bodies.
+// Overflow: none; launched empty after a step that did not fit.
+#include "state/math.shared.glsl"
+#include "resolution/body.shared.glsl"
+#include "resolution/tangents.shared.glsl"
+#include "resolution/contact.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
+layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
+layout(std430) readonly buffer ManifoldPoints { ManifoldPoint manifold_points[]; };
+layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
+layout(std430) writeonly buffer Constraints { ContactConstraint constraints[]; };
+layout(std430) writeonly buffer ConstraintPoints { ContactConstraintPoint constraint_points[]; };
+
+void main()
+{
+    uint index = item_index();
+    if (index >= counters[k_counter_manifold_count]) return;
+    uint manifold_index = manifold_order[index];
+    Manifold manifold = manifolds[manifold_index];
+    BodyInertia inertia_a = inertias[manifold.body_a];
+    BodyInertia inertia_b = inertias[manifold.body_b];
+    BodyVelocity velocity_a = velocities[manifold.body_a];
+    BodyVelocity velocity_b = velocities[manifold.body_b];
+    constraints[index] = make_constraint(manifold, manifold_index, inertia_a, inertia_b);
+    Tangents t = contact_tangents(manifold.normal);
+    for (uint i = 0u; i < manifold.point_count; ++i) {
+        ManifoldPoint point = manifold_points[4u * manifold_index + i];
+        constraint_points[4u * index + i] =
+            prepare_point(point, manifold.normal, t, velocity_a, velocity_b, inertia_a, inertia_b);
+    }
+}

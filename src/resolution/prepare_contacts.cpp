@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of prepare_contacts.comp.glsl.
+#include "device/cpu/cpu_state.h"
+#include "resolution/resolution.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
+    state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
+        const uint manifold_index = state.manifold_order[index];
+        const Manifold& manifold = state.manifolds[manifold_index];
+        const BodyInertia& inertia_a = state.inertias[manifold.body_a];
+        const BodyInertia& inertia_b = state.inertias[manifold.body_b];
+        const BodyVelocity& velocity_a = state.velocities[manifold.body_a];
+        const BodyVelocity& velocity_b = state.velocities[manifold.body_b];
+        state.constraints[index] = make_constraint(manifold, manifold_index, inertia_a, inertia_b);
+        const Tangents t = contact_tangents(manifold.normal);
+        for (std::size_t i = 0; i < manifold.point_count; ++i) {
+            const ManifoldPoint& point = state.manifold_points[std::size_t{4} * manifold_index + i];
+            state.constraint_points[std::size_t{4} * index + i] =
+                prepare_point(point, manifold.normal, t, velocity_a, velocity_b, inertia_a, inertia_b);
+        }
+    });
+}
+
+const Kernel prepare_contacts{"resolution/prepare_contacts", prepare_contacts_on_cpu};
+
+} // namespace talus::engine

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The launches of the resolution, in order.
+#include "resolution/resolution.h"
+
+#include "primitives/primitives.h"
+#include "resolution/contact_passes.h"
+#include "step.h"
+
+namespace talus::engine {
+
+void constraint_graph(Device& device, const StepPlan& plan) {
+    device.run({.kernel = clear_colours, .items = plan.body_count});
+    device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
+    device.run({.kernel = assign_colours, .items = 1});
+    sort_by_key(device, {.keys = BufferId::ManifoldColours,
+                         .values = BufferId::ManifoldOrder,
+                         .keys_swap = BufferId::SortedColours,
+                         .values_swap = BufferId::SortedOrder,
+                         .capacity = plan.pair_capacity,
+                         .count_counter = k_counter_pair_count,
+                         .bits = 8,
+                         .slot = k_dispatch_pair_tiles});
+    copy_key_offsets(device, BufferId::ColourOffsets, k_counter_pair_count);
+    device.run({.kernel = plan_colours, .items = 1});
+}
+
+void prepare(Device& device) {
+    device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies});
+    device.run({.kernel = prepare_contacts, .slot = k_dispatch_manifolds});
+}
+
+/// One pass over all manifolds, colour by colour. The overflow set comes last.
+static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass pass) {
+    const auto launch = [&](uint colour, uint slot) {
+        device.run({.kernel = solve_contacts, .slot = slot, .args = {colour, static_cast<uint>(pass)}});
+    };
+    for (uint colour = 0; colour < plan.colour_capacity; ++colour)
+        launch(colour, k_dispatch_colours + colour);
+    if (plan.overflow) launch(k_overflow_colour, k_dispatch_overflow);
+}
+
+void solve(Device& device, const StepPlan& plan) {
+    if (plan.one_group) {
+        device.run({.kernel = solve_in_one_group, .slot = k_dispatch_once, .args = {plan.restitution}});
+        return;
+    }
+    for (uint substep = 0; substep < plan.substeps; ++substep) {
+        device.run({.kernel = integrate_velocities, .slot = k_dispatch_bodies});
+        pass_over_contacts(device, plan, ContactPass::WarmStart);
+        for (uint i = 0; i < plan.iterations; ++i)
+            pass_over_contacts(device, plan, ContactPass::Solve);
+        device.run({.kernel = integrate_positions, .slot = k_dispatch_bodies});
+        if (plan.relax) pass_over_contacts(device, plan, ContactPass::Relax);
+    }
+    if (plan.restitution) pass_over_contacts(device, plan, ContactPass::Restitution);
+}
+
+void store_impulses(Device& device) {
+    device.run({.kernel = store_contact_impulses, .slot = k_dispatch_manifolds});
+}
+
+} // namespace talus::engine

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Resolution: manifolds -> velocities and movements, by sequential impulses over coloured batches (thesis, section 3.4).
+#pragma once
+
+#include "device/device.h"
+
+namespace talus::engine {
+
+struct StepPlan;
+
+/// Colours every manifold: no two of one colour share a body that contacts can push.
+void constraint_graph(Device&, const StepPlan&);
+/// Effective masses and the solver's records, in the order of colours.
+void prepare(Device&);
+/// All sub-steps and the restitution.
+void solve(Device&, const StepPlan&);
+/// Impulses and colours go back to the manifolds, for the next step's warm start.
+void store_impulses(Device&);
+
+extern const Kernel clear_colours;
+extern const Kernel keep_colours;
+extern const Kernel assign_colours;
+extern const Kernel plan_colours;
+extern const Kernel prepare_bodies;
+extern const Kernel prepare_contacts;
+extern const Kernel integrate_velocities;
+extern const Kernel integrate_positions;
+extern const Kernel solve_contacts;
+extern const Kernel solve_in_one_group;
+extern const Kernel store_contact_impulses;
+
+} // namespace talus::engine

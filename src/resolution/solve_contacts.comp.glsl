@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a manifold of one colour: one pass of sequential impulses over its points (thesis, section 3.4).
+// args.x: the colour; args.y: the pass, k_warm_start, k_solve, k_relax or k_restitution. No two manifolds of a colour
+// share a body that they could push. The overflow set is solved one after the other by a single invocation.
+// Reads: ColourOffsets, Constraints, Inertias, Deltas.
+// Writes: Velocities, ConstraintPoints (impulses).
+// Needs: a barrier after the colour before.
+// Overflow: none; launched empty after a step that did not fit.
+#include "state/math.shared.glsl"
+#include "resolution/body.shared.glsl"
+#include "resolution/tangents.shared.glsl"
+#include "resolution/contact.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
+layout(std430) buffer Velocities { BodyVelocity velocities[]; };
+
+BodyVelocity load_velocity(uint body) { return velocities[body]; }
+void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = velocity; }
+
+#include "resolution/contact_passes.glsl"
+
+void main()
+{
+    uint index = colour_offsets[args.x] + item_index();
+    uint end = colour_offsets[args.x + 1u];
+    if (args.x == k_overflow_colour) {
+        if (item_index() != 0u) return;
+    } else {
+        end = min(end, index + 1u);
+    }
+    for (; index < end; ++index)
+        pass_over_constraint(args.y, index);
+}

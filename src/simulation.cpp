@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "simulation.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <utility>
+
+#include "parameters.h"
+
+namespace talus::engine {
+namespace {
+
+constexpr uint k_first_bodies = 64;
+constexpr uint k_first_pairs = 256;
+constexpr uint k_first_colours = 8;
+// The ring keeps this many steps' results; one place stays free so that the newest finished step's are still there.
+constexpr std::size_t k_most_pending = k_ring_size - 1;
+// After so many steps launches for colours that none of them needed are given up.
+constexpr uint k_colour_window = 64;
+
+constexpr std::array k_body_buffers{
+    BufferId::Poses,      BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
+    BufferId::Aabbs,      BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
+    BufferId::Inertias,   BufferId::Deltas,
+};
+
+constexpr std::array k_pair_buffers{
+    BufferId::Pairs,           BufferId::OldManifolds,    BufferId::Manifolds,   BufferId::Uncoloured,
+    BufferId::ManifoldColours, BufferId::ManifoldOrder,   BufferId::Constraints,
+};
+
+constexpr std::array k_point_buffers{
+    BufferId::OldManifoldPoints,
+    BufferId::ManifoldPoints,
+    BufferId::ConstraintPoints,
+};
+
+uint with_headroom(uint demand) { return demand + demand / 4; }
+
+} // namespace
+
+Simulation::Simulation(const WorldOptions& options) {
+    DeviceKind kind = options.device;
+    std::string why = "asked for";
+    if (kind == DeviceKind::Auto) {
+        const std::vector<GlProbe> probes = probe_gl();
+        const auto hardware = std::ranges::find_if(probes, [](const GlProbe& p) { return !p.software && !p.info.name.empty(); });
+        const bool has_gpu = options.gl_context == GlContext::Current || hardware != probes.end();
+        kind = has_gpu ? DeviceKind::Gpu : DeviceKind::Cpu;
+        why = has_gpu ? "there is a GPU" : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
+                                              : probes.front().info.name.empty() ? probes.front().info.why
+                                                                                 : "OpenGL runs in software here (" + probes.front().info.name + ")");
+    }
+    if (kind != DeviceKind::Cpu) gpu = make_gl_device(options.gl_context, options.profile);
+    if (kind != DeviceKind::Gpu) cpu = make_cpu_device(options.threads, options.profile);
+    placement.detection = gpu ? gpu.get() : cpu.get();
+    placement.resolution = cpu ? cpu.get() : gpu.get();
+
+    info = placement.detection->info();
+    info.kind = kind;
+    info.why = why;
+    if (placement.hybrid()) {
+        const DeviceInfo host = cpu->info();
+        info.name += " and " + host.name;
+        info.threads = host.threads;
+    }
+
+    const auto first = [](uint wanted, uint fallback) { return wanted > 0 ? wanted : fallback; };
+    grow_everywhere(BufferId::Counters, k_counter_words);
+    grow_everywhere(BufferId::Dispatches, k_dispatch_count);
+    grow_everywhere(BufferId::SweepAxes, 1);
+    reserve_bodies(first(options.capacities.bodies, k_first_bodies));
+    reserve_pairs(first(options.capacities.pairs, k_first_pairs));
+    plan.colour_capacity = std::min(first(options.capacities.colours, k_first_colours), k_max_colours);
+}
+
+Simulation::~Simulation() = default;
+
+std::uint64_t Simulation::memory_bytes() const {
+    return placement.detection->memory_bytes() + (placement.hybrid() ? placement.resolution->memory_bytes() : 0);
+}
+
+void Simulation::grow_everywhere(BufferId buffer, std::size_t elements) {
+    const std::size_t bytes = elements * k_buffers[static_cast<std::size_t>(buffer)].stride;
+    for (Device* device : {gpu.get(), cpu.get()})
+        if (device != nullptr) device->grow(buffer, bytes);
+}
+
+void Simulation::reserve_bodies(uint count) {
+    if (count <= body_capacity) return;
+    body_capacity = std::max(count, with_headroom(body_capacity));
+    for (const BufferId buffer : k_body_buffers)
+        grow_everywhere(buffer, body_capacity);
+    grow_everywhere(BufferId::BodyColours, std::size_t{4} * body_capacity);
+}
+
+void Simulation::reserve_pairs(uint count) {
+    plan.pair_capacity = std::max(count, plan.pair_capacity);
+    plan.table_size = std::bit_ceil(2 * plan.pair_capacity);
+    for (const BufferId buffer : k_pair_buffers)
+        grow_everywhere(buffer, plan.pair_capacity);
+    for (const BufferId buffer : k_point_buffers)
+        grow_everywhere(buffer, std::size_t{4} * plan.pair_capacity);
+    grow_everywhere(BufferId::PairTable, plan.table_size);
+}
+
+void Simulation::write_bytes(BufferId buffer, std::size_t offset, std::span<const std::byte> bytes) {
+    placement.resolution->write(buffer, offset, bytes);
+    if (placement.hybrid()) placement.detection->write(buffer, offset, bytes);
+}
+
+void Simulation::set_settings(const Settings& wanted) { settings = wanted; }
+
+void Simulation::step(uint body_count, bool some_body_bounces, bool with_poses) {
+    poll();
+    while (pending.size() >= k_most_pending)
+        finish_oldest();
+    enqueue({0, body_count, some_body_bounces, with_poses});
+}
+
+void Simulation::enqueue(const Pending& wanted) {
+    const Passes passes = passes_of(settings);
+    StepPlan now = plan;
+    now.broad_phase = settings.broad_phase;
+    now.body_count = wanted.body_count;
+    now.substeps = passes.substeps;
+    now.iterations = passes.iterations;
+    now.relax = passes.relax;
+    now.restitution = wanted.bounces;
+    now.one_group = wanted.body_count <= k_one_group_bodies;
+    if (now.one_group) { // colours need no launches there
+        now.colour_capacity = k_max_colours;
+        now.overflow = true;
+    }
+
+    const Parameters parameters = make_parameters(settings, now);
+    placement.detection->set_parameters(parameters);
+    if (placement.hybrid()) placement.resolution->set_parameters(parameters);
+    Pending entry = wanted;
+    entry.ticket = engine::step(placement, now, wanted.with_poses);
+    pending.push_back(entry);
+}
+
+void Simulation::poll() {
+    while (!pending.empty() && placement.resolution->finished(pending.front().ticket))
+        finish_oldest();
+}
+
+void Simulation::settle() {
+    while (!pending.empty())
+        finish_oldest();
+}
+
+void Simulation::finish_oldest() {
+    const Pending done = pending.front();
+    Device& device = *placement.resolution;
+    device.wait(done.ticket);
+    const std::span<const uint> counters = device.counters(done.ticket);
+    if (counters[k_counter_did_not_fit] != 0) {
+        redo(counters);
+        return;
+    }
+    pending.pop_front();
+    ++finished_count;
+    newest_ticket = done.ticket;
+    newest_has_poses = done.with_poses;
+
+    StepReport& report = newest_report;
+    report.step = finished_count;
+    report.pairs = counters[k_counter_pair_count];
+    report.manifolds = counters[k_counter_manifold_count];
+    report.contacts = counters[k_counter_contact_count];
+    report.colours = counters[k_counter_colour_demand];
+    report.overflow_manifolds = counters[k_counter_overflow_count];
+    report.frozen_bodies = counters[k_counter_frozen_bodies];
+    report.growths = growths;
+    const std::span<const double> stage_ms = device.stage_ms(done.ticket);
+    report.stage_ms.assign(stage_ms.begin(), stage_ms.end());
+    report.step_ms = std::accumulate(stage_ms.begin(), stage_ms.end(), 0.0);
+    follow_colours(report.colours, report.overflow_manifolds);
+}
+
+void Simulation::follow_colours(uint colours, uint overflow) {
+    if (overflow > 0) plan.overflow = true;
+    const uint wanted = std::min(colours + 1, k_max_colours); // one to spare
+    plan.colour_capacity = std::max(plan.colour_capacity, wanted);
+    window_colours = std::max(window_colours, wanted);
+    if (++window_steps < k_colour_window) return;
+    plan.colour_capacity = window_colours;
+    window_steps = window_colours = 0;
+}
+
+void Simulation::redo(std::span<const uint> counters) {
+    const uint reasons = counters[k_counter_did_not_fit];
+    if ((reasons & k_fit_pairs) != 0) reserve_pairs(with_headroom(counters[k_counter_pair_demand]));
+    if ((reasons & k_fit_colours) != 0) {
+        follow_colours(counters[k_counter_colour_demand], counters[k_counter_overflow_count]);
+    }
+    ++growths;
+
+    // The steps behind it changed nothing either, but each has exchanged the manifolds with the old ones.
+    const std::deque<Pending> again = std::exchange(pending, {});
+    Device& device = *placement.resolution;
+    device.wait(again.back().ticket);
+    if (again.size() % 2 == 1) {
+        device.swap(BufferId::Manifolds, BufferId::OldManifolds);
+        device.swap(BufferId::ManifoldPoints, BufferId::OldManifoldPoints);
+    }
+    constexpr uint fits = 0;
+    device.write(BufferId::Counters, k_counter_did_not_fit * sizeof(uint), std::as_bytes(std::span(&fits, 1)));
+    for (const Pending& entry : again)
+        enqueue(entry);
+}
+
+std::span<const BodyPose> Simulation::newest_poses() const {
+    if (!newest_has_poses) return {};
+    return placement.resolution->poses(newest_ticket);
+}
+
+} // namespace talus::engine

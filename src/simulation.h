@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Keeps steps going: owns the devices, has several steps on their way at once, and does a step again after growth when
+// it did not fit.
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include <talus/world.h>
+
+#include "step.h"
+
+namespace talus::engine {
+
+class Simulation {
+public:
+    /// Throws Error where the device cannot be had.
+    explicit Simulation(const WorldOptions&);
+    ~Simulation();
+
+    const DeviceInfo& device() const { return info; }
+    std::uint64_t memory_bytes() const;
+
+    /// Makes room for body slots.
+    void reserve_bodies(uint count);
+    /// `elements`: records of the buffer's type, for the body slots from `first` on. Needs settle() before.
+    template <typename T> void write(BufferId buffer, std::size_t first, std::span<const T> elements) {
+        write_bytes(buffer, first * sizeof(T), std::as_bytes(elements));
+    }
+
+    void set_settings(const Settings&);
+    /// Enqueues a step over the given body slots. Needs has_room() or waits for the oldest.
+    void step(uint body_count, bool some_body_bounces, bool with_poses);
+    /// Waits until every step is done, and has fitted.
+    void settle();
+
+    /// Whose buffers hold the state, and whose the pairs. Call settle() first.
+    Device& state_device() const { return *placement.resolution; }
+    Device& detection_device() const { return *placement.detection; }
+
+    std::uint64_t step_count() const { return finished_count + pending.size(); }
+    /// Of the newest finished step.
+    const StepReport& report() const { return newest_report; }
+    /// Collects what has finished meanwhile, without waiting.
+    void poll();
+    /// The newest finished step's poses as they came through the ring; empty if it was not asked for them.
+    std::span<const BodyPose> newest_poses() const;
+
+private:
+    struct Pending {
+        Ticket ticket;
+        uint body_count;
+        bool bounces;
+        bool with_poses;
+    };
+
+    void write_bytes(BufferId, std::size_t offset, std::span<const std::byte>);
+    void enqueue(const Pending&);
+    void grow_everywhere(BufferId, std::size_t elements);
+    void reserve_pairs(uint count);
+    void finish_oldest();
+    void redo(std::span<const uint> counters);
+    void follow_colours(uint colours, uint overflow);
+
+    std::unique_ptr<Device> gpu;
+    std::unique_ptr<Device> cpu;
+    Placement placement;
+    DeviceInfo info;
+    Settings settings;
+    StepPlan plan;
+    uint body_capacity = 0;
+
+    std::deque<Pending> pending;
+    std::uint64_t finished_count = 0;
+    std::uint32_t growths = 0;
+    uint window_steps = 0;   ///< since colours were last counted
+    uint window_colours = 0; ///< most colours since
+    StepReport newest_report;
+    Ticket newest_ticket = 0;
+    bool newest_has_poses = false;
+};
+
+} // namespace talus::engine

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Every buffer of the state, in one table. A kernel names the buffers that it uses by their block name; its CPU twin
+// finds them under the field name in CpuState.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "state/dialect.h"
+
+namespace talus::engine {
+
+#include "state/constants.shared.glsl"
+#include "state/records.shared.glsl"
+
+// X(block, field, element, layout, role)
+//   layout  the element's words: f float, u uint
+//   role    State    survives the step, and is the same on every device
+//           Result   made anew in each step, the same on every device
+//           Scratch  made anew in each step, in an order or at places that may differ between runs
+#define TALUS_BUFFERS(X)                                                                                               \
+    /* bodies */                                                                                                       \
+    X(Poses, poses, BodyPose, "fffuffff", State)                                                                       \
+    X(Velocities, velocities, BodyVelocity, "ffffffff", State)                                                         \
+    X(Shapes, shapes, BodyShape, "fffu", State)                                                                        \
+    X(Properties, properties, BodyProperties, "fffffffffuuu", State)                                                   \
+    X(Loads, loads, BodyLoad, "ffffffff", State)                                                                       \
+    /* broad phase */                                                                                                  \
+    X(Aabbs, aabbs, Aabb, "fffffffu", Result)                                                                          \
+    X(SpreadSums, spread_sums, SpreadSum, "ffffffffffff", Result)                                                      \
+    X(SweepAxes, sweep_axes, SweepAxis, "ufuu", Result)                                                                \
+    X(SortKeys, sort_keys, uint, "u", Result)                                                                          \
+    X(SortValues, sort_values, uint, "u", Result)                                                                      \
+    X(SortKeysSwap, sort_keys_swap, uint, "u", Scratch)                                                                \
+    X(SortValuesSwap, sort_values_swap, uint, "u", Scratch)                                                            \
+    X(DigitCounts, digit_counts, uint, "u", Scratch)                                                                   \
+    X(PairCounts, pair_counts, uint, "u", Result)                                                                      \
+    X(ScanSums, scan_sums, uint, "u", Scratch)                                                                         \
+    X(Pairs, pairs, Pair, "uu", Result)                                                                                \
+    /* narrow phase */                                                                                                 \
+    X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
+    X(OldManifolds, old_manifolds, Manifold, "uuuufffuffuu", State)                                                    \
+    X(OldManifoldPoints, old_manifold_points, ManifoldPoint, "fffffffuffff", State)                                    \
+    X(Manifolds, manifolds, Manifold, "uuuufffuffuu", Result)                                                          \
+    X(ManifoldPoints, manifold_points, ManifoldPoint, "fffffffuffff", Result)                                          \
+    /* resolution */                                                                                                   \
+    X(BodyColours, body_colours, uint, "u", Scratch)                                                                   \
+    X(Uncoloured, uncoloured, uint, "u", Scratch)                                                                      \
+    X(ManifoldColours, manifold_colours, uint, "u", Result)                                                            \
+    X(ManifoldOrder, manifold_order, uint, "u", Result)                                                                \
+    X(SortedColours, sorted_colours, uint, "u", Scratch)                                                               \
+    X(SortedOrder, sorted_order, uint, "u", Scratch)                                                                   \
+    X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
+    X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
+    X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
+    X(Constraints, constraints, ContactConstraint, "uuuufffffuuu", Result)                                             \
+    X(ConstraintPoints, constraint_points, ContactConstraintPoint, "ffffffffffffffff", Result)                         \
+    /* control */                                                                                                      \
+    X(Counters, counters, uint, "u", State)                                                                            \
+    X(Dispatches, dispatches, Dispatch, "uuuu", Result)
+
+} // namespace talus::engine

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Constants of both languages.
+
+const uint k_none = 0xffffffffu; // no such index
+
+// BodyShape::type
+const uint k_shape_box = 0u;
+const uint k_shape_sphere = 1u;
+const uint k_kind_static = 0u;
+const uint k_kind_rigid = 1u;
+const uint k_kind_kinematic = 2u;
+const uint k_kind_absent = 255u; // an empty body slot
+
+// BodyPose::flags
+const uint k_body_frozen = 1u; // went non-finite; stays where it was
+
+// BodyProperties::combine
+const uint k_combine_average = 0u;
+const uint k_combine_minimum = 1u;
+const uint k_combine_maximum = 2u;
+const uint k_combine_multiply = 3u;
+
+// The constraint graph: colours 0 to k_max_colours - 1, then the overflow set, then pairs that do not touch.
+const uint k_max_colours = 64u;
+const uint k_overflow_colour = 64u;
+const uint k_inactive_colour = 65u;
+const uint k_no_colour = 0xffu; // not coloured yet
+
+// Words of the Counters buffer. "demand" counts what was wanted, also beyond a buffer's end.
+const uint k_counter_body_count = 0u;
+const uint k_counter_pair_demand = 1u;
+const uint k_counter_pair_count = 2u;     // min(demand, capacity)
+const uint k_counter_manifold_count = 3u; // pairs that touch
+const uint k_counter_contact_count = 4u;  // contact points
+const uint k_counter_colour_demand = 5u;  // colours in use, without the overflow set
+const uint k_counter_overflow_count = 6u; // manifolds in the overflow set
+const uint k_counter_uncoloured = 7u;     // manifolds still without a colour
+const uint k_counter_did_not_fit = 8u;    // k_fit_* bits; sticky until the host has made room
+const uint k_counter_frozen_bodies = 9u;  // in all steps so far
+const uint k_counter_old_pair_count = 10u; // entries of OldManifolds
+const uint k_counter_words = 16u;
+
+// Bits of k_counter_did_not_fit
+const uint k_fit_pairs = 1u;
+const uint k_fit_colours = 2u;
+
+// Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
+// fit, so that nothing of the state is written.
+const uint k_dispatch_pairs = 0u;      // groups of 64 pairs
+const uint k_dispatch_pair_tiles = 1u; // sort tiles of pairs
+const uint k_dispatch_old_pairs = 2u;  // groups of 64 pairs of the last step
+const uint k_dispatch_once = 3u;       // one group
+const uint k_dispatch_bodies = 4u;     // groups of 64 bodies
+const uint k_dispatch_manifolds = 5u;  // groups of 64 manifolds
+const uint k_dispatch_colours = 6u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
+const uint k_dispatch_overflow = k_dispatch_colours + k_max_colours; // one group if there is an overflow set
+const uint k_dispatch_count = k_dispatch_overflow + 1u;
+
+const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each
+const uint k_sort_tile = 1024u;  // keys that one group sorts
+const uint k_digits = 256u;      // values of the sort's digit
+const uint k_spread_group = 256u; // bodies that one group sums
+const uint k_one_group_bodies = 1024u; // body slots of a world that one work group solves

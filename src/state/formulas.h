@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Every shared formula, for C++.
+#pragma once
+
+#include "state/buffers.h"
+
+namespace talus::engine {
+
+#include "state/math.shared.glsl"
+
+#include "state/dispatch.shared.glsl"
+
+#include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/sweep_axis.shared.glsl"
+
+#include "resolution/tangents.shared.glsl"
+
+#include "narrow_phase/contact_geometry.shared.glsl"
+
+#include "narrow_phase/collide_boxes.shared.glsl"
+#include "narrow_phase/collide_spheres.shared.glsl"
+#include "narrow_phase/manifold.shared.glsl"
+#include "narrow_phase/pair_table.shared.glsl"
+
+#include "resolution/body.shared.glsl"
+#include "resolution/colouring.shared.glsl"
+#include "resolution/contact.shared.glsl"
+
+} // namespace talus::engine

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// The records that live in buffers, written once for C++ and GLSL. Every record is a row of 16-byte cells: a vec3 and a
+// scalar, or four scalars. The letters beside a record's buffer in buffers.h (f float, u uint) repeat its layout.
+
+// ---- bodies: one record of each kind a body slot ----
+
+// 32 bytes. The renderer draws from these.
+struct BodyPose {
+    vec3 position; // m, world, centre of mass
+    uint flags;    // k_body_frozen
+    vec4 rotation; // body to world, x y z w
+};
+
+// 32 bytes. All of a body that the solver's inner loop reads but its inertia.
+struct BodyVelocity {
+    vec3 linear;        // m/s, world
+    float inverse_mass; // 1/kg; 0 for static, kinematic and frozen bodies
+    vec3 angular;       // rad/s, world
+    float reserved;
+};
+
+// 16 bytes
+struct BodyShape {
+    vec3 half_extents; // m, body axes; a sphere has its radius in all three
+    uint type;         // bits 0-7 k_shape_*, bits 8-15 k_kind_*
+};
+
+// 48 bytes. What changes only when the caller says so.
+struct BodyProperties {
+    vec3 inverse_inertia; // 1/(kg m^2), principal, body axes
+    float inverse_mass;   // 1/kg
+    float gravity_scale;
+    float linear_damping;  // 1/s
+    float angular_damping; // 1/s
+    float friction;
+    float restitution;
+    uint combine; // bits 0-7 friction, bits 8-15 restitution: k_combine_*
+    uint reserved_1;
+    uint reserved_2;
+};
+
+// 32 bytes. The caller's force and torque for the next step.
+struct BodyLoad {
+    vec3 force; // N, world
+    float reserved_1;
+    vec3 torque; // N m, world
+    float reserved_2;
+};
+
+// 32 bytes
+struct Aabb {
+    vec3 lower;   // m, world
+    float margin; // m, how far beyond the shape the box reaches
+    vec3 upper;
+    uint movable; // 1 where contacts can push the body
+};
+
+// 32 bytes. How far a body has come since the start of the step.
+struct BodyDelta {
+    vec3 position; // m, world
+    float reserved;
+    vec4 rotation; // world, from the rotation at the start of the step to the present one
+};
+
+// 32 bytes. World inverse inertia at the start of the step: a symmetric matrix.
+struct BodyInertia {
+    float xx; // 1/(kg m^2)
+    float yy;
+    float zz;
+    float xy;
+    float xz;
+    float yz;
+    uint movable; // 1 where contacts can push the body
+    uint reserved;
+};
+
+// ---- contacts ----
+
+// 8 bytes. body_a < body_b.
+struct Pair {
+    uint body_a;
+    uint body_b;
+};
+
+// 48 bytes, one a pair. point_count is 0 where the two do not touch. Kept for one step, to warm start the next.
+struct Manifold {
+    uint body_a;
+    uint body_b;
+    uint point_count; // 0 to 4
+    uint colour;      // batch of the constraint graph, k_no_colour before it has one
+    vec3 normal;      // unit, world, from A to B
+    uint axis;        // the separating axis it stands on, see narrow_phase/collide_boxes.shared.glsl
+    float friction;
+    float restitution;
+    uint reserved_1;
+    uint reserved_2;
+};
+
+// 48 bytes, four a pair.
+struct ManifoldPoint {
+    vec3 anchor_a;    // m, from A's centre, world axes
+    float separation; // m, negative = overlap
+    vec3 anchor_b;    // m, from B's centre, world axes
+    uint feature_id;
+    float normal_impulse; // N s, accumulated
+    float tangent_impulse_1;
+    float tangent_impulse_2;
+    float reserved;
+};
+
+// 48 bytes, one a manifold, in the order of colours: what the solver reads of it.
+struct ContactConstraint {
+    uint body_a;
+    uint body_b;
+    uint manifold;
+    uint point_count;
+    vec3 normal;
+    float friction;
+    float restitution;
+    uint against_static; // 1 where contacts can push only one of the two
+    uint reserved_1;
+    uint reserved_2;
+};
+
+// 64 bytes, four a constraint.
+struct ContactConstraintPoint {
+    vec3 anchor_a;
+    float base_separation; // m: separation without what the anchors themselves contribute
+    vec3 anchor_b;
+    float normal_mass; // kg, effective mass along the normal (equation 3.15)
+    float tangent_mass_1;
+    float tangent_mass_2;
+    float approach_speed;     // m/s along the normal at the start of the step, negative when closing
+    float max_normal_impulse; // N s, largest of all sub-steps: whether the point was hit at all
+    float normal_impulse;     // N s, accumulated
+    float tangent_impulse_1;
+    float tangent_impulse_2;
+    float reserved;
+};
+
+// ---- control ----
+
+// 16 bytes: the arguments of an indirect dispatch, and the number of items that they were made from.
+struct Dispatch {
+    uint groups_x;
+    uint groups_y;
+    uint groups_z;
+    uint items;
+};
+
+// 48 bytes: sums over the bodies of one work group (broad phase, axis of largest spread).
+struct SpreadSum {
+    vec3 centre;
+    float count;
+    vec3 centre_squared;
+    float reserved_1;
+    vec3 extent;
+    float reserved_2;
+};
+
+// 16 bytes: what the sort along one axis needs to know.
+struct SweepAxis {
+    uint axis;          // 0 x, 1 y, 2 z
+    float large_extent; // m: a body longer than this along the axis is tested against all
+    uint reserved_1;
+    uint reserved_2;
+};
+
+// The step's constants, 112 bytes: a uniform block in GLSL.
+struct Parameters {
+    vec3 gravity; // m/s^2
+    float dt;     // s, the step
+    float h;      // s, the sub-step
+    float inv_h;  // 1/s
+    float restitution_threshold; // m/s
+    float contact_push_speed;    // m/s
+    // softness of a contact between moving bodies, and against one that contacts cannot push (solver.md)
+    float bias_rate;
+    float mass_scale;
+    float impulse_scale;
+    float static_bias_rate;
+    float static_mass_scale;
+    float static_impulse_scale;
+    float max_linear_speed;
+    float max_angular_speed;
+    uint body_count; // body slots in use, holes included
+    uint substeps;
+    uint iterations;
+    uint relax; // 1 where a pass without bias follows each sub-step
+    uint pair_capacity;
+    uint colour_capacity;
+    uint overflow_capacity; // 1 where the overflow set has launches
+    uint table_size; // slots of the pair table, a power of two
+    float linear_slop; // m, overlap that is left alone
+    float speculative_distance; // m
+    uint reserved_1;
+    uint reserved_2;
+};

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// One step of the world.
+#pragma once
+
+#include "device/device.h"
+
+namespace talus::engine {
+
+/// What the host knows of a step before it runs: how large launches may be, and which passes there are.
+struct StepPlan {
+    BroadPhase broad_phase = BroadPhase::SweepAndPrune;
+    uint body_count = 0;      ///< body slots in use
+    uint pair_capacity = 0;   ///< room in the buffers that have a record a pair
+    uint table_size = 0;      ///< slots of PairTable
+    uint colour_capacity = 0; ///< colours that get launches
+    bool overflow = false;    ///< the overflow set gets launches
+    bool one_group = false;   ///< small enough for solve_in_one_group
+    uint substeps = 0;
+    uint iterations = 0;
+    bool relax = false;
+    bool restitution = false; ///< some body bounces
+};
+
+/// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.
+struct Placement {
+    Device* detection = nullptr;
+    Device* resolution = nullptr;
+    bool hybrid() const { return detection != resolution; }
+    Device& of(Stage stage) const { return stage <= Stage::NarrowPhase ? *detection : *resolution; }
+};
+
+void run_stage(Device&, Stage, const StepPlan&);
+
+/// Enqueues a step; see Device::end_step. On a hybrid placement it waits for the detection.
+Ticket step(const Placement&, const StepPlan&, bool with_poses);
+
+} // namespace talus::engine

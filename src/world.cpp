@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: MIT
+// The public calls: check, then write into the host's table of bodies, or read what the device made. Changes go to the
+// device in one batch before the next step.
+#include <talus/world.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "body_table.h"
+#include "checks.h"
+#include "simulation.h"
+#include "state/formulas.h"
+
+namespace talus {
+using namespace engine;
+
+struct World::Impl {
+    Impl(const Settings& wanted, const WorldOptions& options) : simulation(options) { set_settings(wanted); }
+
+    void set_settings(const Settings& wanted) {
+        simulation.settle();
+        simulation.set_settings(wanted);
+        settings = wanted;
+    }
+
+    /// The slot of a body that is there; otherwise an Error that begins with the call's name.
+    uint slot_of(BodyId id, const char* call) const {
+        if (table.contains(id)) return id.index;
+        const bool known = id.index < table.slot_count();
+        throw Error(fmt::format("{}: body {} (generation {}) {}", call, id.index, id.generation,
+                                known ? "was removed" : fmt::format("is not known; the world has {} bodies",
+                                                                    table.body_count())));
+    }
+
+    /// The slot of a body that forces move.
+    uint rigid_slot_of(BodyId id, const char* call) const {
+        const uint slot = slot_of(id, call);
+        if (table.kind_of(slot) != BodyKind::Rigid)
+            throw Error(fmt::format("{}: body {} is {}; only rigid bodies are moved by forces and impulses", call, slot,
+                                    to_words(table.kind_of(slot))));
+        return slot;
+    }
+
+    /// The table's poses and velocities are those of the newest step.
+    void refresh() {
+        if (table_step == simulation.step_count()) return;
+        simulation.settle();
+        const uint count = device_slots;
+        const std::array requests{
+            ReadRequest{BufferId::Poses, count * sizeof(BodyPose), table.poses.data()},
+            ReadRequest{BufferId::Velocities, count * sizeof(BodyVelocity), table.velocities.data()},
+        };
+        simulation.state_device().read(requests);
+        // A step uses the loads up.
+        std::fill_n(table.loads.begin(), count, BodyLoad{});
+        table_step = simulation.step_count();
+    }
+
+    /// For changing a body: its records are fresh and its change will reach the device.
+    void touch(uint slot, std::uint8_t what) {
+        refresh();
+        table.mark(slot, what);
+    }
+
+    void upload_changes() {
+        if (!table.has_changes()) return;
+        simulation.settle();
+        simulation.reserve_bodies(table.slot_count());
+        const auto changes = table.take_changes();
+        upload(changes, k_dirty_pose, BufferId::Poses, table.poses);
+        upload(changes, k_dirty_velocity, BufferId::Velocities, table.velocities);
+        upload(changes, k_dirty_shape, BufferId::Shapes, table.shapes);
+        upload(changes, k_dirty_properties, BufferId::Properties, table.properties);
+        upload(changes, k_dirty_load, BufferId::Loads, table.loads);
+        if (table.slot_count() != device_slots) {
+            device_slots = table.slot_count();
+            simulation.write(BufferId::Counters, k_counter_body_count, std::span<const uint>(&device_slots, 1));
+        }
+    }
+
+    /// Writes each run of neighbouring changed slots at once.
+    template <typename T>
+    void upload(const std::vector<std::pair<uint, std::uint8_t>>& changes, std::uint8_t what, BufferId buffer,
+                const std::vector<T>& records) {
+        for (std::size_t i = 0; i < changes.size();) {
+            if ((changes[i].second & what) == 0) {
+                ++i;
+                continue;
+            }
+            const uint first = changes[i].first;
+            uint end = first;
+            for (; i < changes.size() && changes[i].first == end && (changes[i].second & what) != 0; ++i)
+                ++end;
+            simulation.write(buffer, first, std::span(records).subspan(first, end - first));
+        }
+    }
+
+    void step(std::uint32_t count) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            upload_changes();
+            simulation.step(table.slot_count(), table.bouncing_count > 0, poses_wanted);
+            table.recycle();
+        }
+    }
+
+    template <typename T, typename F> std::vector<T> for_present(const F& value) const {
+        std::vector<T> result;
+        result.reserve(table.body_count());
+        for (uint slot = 0; slot < table.slot_count(); ++slot)
+            if (table.is_present(slot)) result.push_back(value(slot));
+        return result;
+    }
+
+    bool both_present(uint a, uint b) const { return table.is_present(a) && table.is_present(b); }
+
+    Simulation simulation;
+    Settings settings;
+    BodyTable table;
+    std::uint64_t table_step = 0; ///< the step whose poses and velocities the table holds
+    uint device_slots = 0;        ///< body slots that the device knows of
+    bool poses_wanted = false;
+};
+
+namespace {
+
+Settings checked(const Settings& settings) {
+    check_settings(settings);
+    return settings;
+}
+
+BodyDefinition checked(const BodyDefinition& definition, const std::string& where) {
+    return checked_definition(definition, where);
+}
+
+std::string name_of(const char* call, BodyId id) { return fmt::format("{}: body {}", call, id.index); }
+
+} // namespace
+
+World::World(const Settings& settings, const WorldOptions& options)
+    : impl_(std::make_unique<Impl>(checked(settings), options)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+// ---- bodies ----
+
+BodyId World::add(const BodyDefinition& definition) { return add(std::span(&definition, 1)).front(); }
+
+std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
+    std::vector<BodyDefinition> all;
+    all.reserve(definitions.size());
+    for (std::size_t i = 0; i < definitions.size(); ++i)
+        all.push_back(checked(definitions[i], definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
+    impl_->refresh();
+    std::vector<BodyId> ids;
+    ids.reserve(all.size());
+    for (const BodyDefinition& definition : all)
+        ids.push_back(impl_->table.add(definition));
+    return ids;
+}
+
+void World::remove(BodyId id) {
+    impl_->slot_of(id, "remove");
+    impl_->refresh();
+    impl_->table.remove(id);
+}
+
+bool World::contains(BodyId id) const noexcept { return impl_->table.contains(id); }
+std::size_t World::body_count() const noexcept { return impl_->table.body_count(); }
+
+std::vector<BodyId> World::bodies() const {
+    return impl_->for_present<BodyId>([&](uint slot) { return impl_->table.id_of(slot); });
+}
+
+BodyKind World::kind(BodyId id) const { return impl_->table.kind_of(impl_->slot_of(id, "kind")); }
+Shape World::shape(BodyId id) const { return unpack_shape(impl_->table.shapes[impl_->slot_of(id, "shape")]); }
+float World::mass(BodyId id) const { return impl_->table.masses[impl_->slot_of(id, "mass")]; }
+Vec3 World::inertia(BodyId id) const { return impl_->table.inertias[impl_->slot_of(id, "inertia")]; }
+
+Pose World::pose(BodyId id) const {
+    const uint slot = impl_->slot_of(id, "pose");
+    impl_->refresh();
+    return from_record(impl_->table.poses[slot]);
+}
+
+void World::set_pose(BodyId id, const Pose& pose) {
+    const uint slot = impl_->slot_of(id, "set_pose");
+    const Pose wanted = checked_pose(pose, name_of("set_pose", id));
+    impl_->touch(slot, k_dirty_pose | k_dirty_velocity);
+    BodyTable& table = impl_->table;
+    table.poses[slot] = {to_glm(wanted.position), 0, to_glm(wanted.rotation)};
+    table.velocities[slot].inverse_mass = table.properties[slot].inverse_mass; // a frozen body thaws
+}
+
+Velocity World::velocity(BodyId id) const {
+    const uint slot = impl_->slot_of(id, "velocity");
+    impl_->refresh();
+    return from_record(impl_->table.velocities[slot]);
+}
+
+void World::set_velocity(BodyId id, const Velocity& velocity) {
+    const uint slot = impl_->slot_of(id, "set_velocity");
+    check_velocity(velocity, name_of("set_velocity", id));
+    if (kind(id) == BodyKind::Static) throw Error(name_of("set_velocity", id) + " is static; make it kinematic to move it");
+    impl_->touch(slot, k_dirty_pose | k_dirty_velocity);
+    BodyTable& table = impl_->table;
+    table.poses[slot].flags = 0;
+    table.velocities[slot] = {to_glm(velocity.linear), table.properties[slot].inverse_mass, to_glm(velocity.angular),
+                              0.0f};
+}
+
+std::vector<Pose> World::poses() const {
+    impl_->refresh();
+    return impl_->for_present<Pose>([&](uint slot) { return from_record(impl_->table.poses[slot]); });
+}
+
+std::vector<Velocity> World::velocities() const {
+    impl_->refresh();
+    return impl_->for_present<Velocity>([&](uint slot) { return from_record(impl_->table.velocities[slot]); });
+}
+
+void World::add_force(BodyId id, Vec3 force) {
+    const uint slot = impl_->rigid_slot_of(id, "add_force");
+    check_finite(force, name_of("add_force", id), "force");
+    impl_->touch(slot, k_dirty_load);
+    impl_->table.loads[slot].force += to_glm(force);
+}
+
+void World::add_force(BodyId id, Vec3 force, Vec3 point) {
+    check_finite(point, name_of("add_force", id), "point");
+    add_force(id, force);
+    const uint slot = id.index;
+    impl_->table.loads[slot].torque += cross3(to_glm(point) - impl_->table.poses[slot].position, to_glm(force));
+}
+
+void World::add_torque(BodyId id, Vec3 torque) {
+    const uint slot = impl_->rigid_slot_of(id, "add_torque");
+    check_finite(torque, name_of("add_torque", id), "torque");
+    impl_->touch(slot, k_dirty_load);
+    impl_->table.loads[slot].torque += to_glm(torque);
+}
+
+void World::add_impulse(BodyId id, Vec3 impulse) {
+    const uint slot = impl_->rigid_slot_of(id, "add_impulse");
+    check_finite(impulse, name_of("add_impulse", id), "impulse");
+    impl_->touch(slot, k_dirty_velocity);
+    impl_->table.velocities[slot].linear += to_glm(impulse) * impl_->table.properties[slot].inverse_mass;
+}
+
+void World::add_impulse(BodyId id, Vec3 impulse, Vec3 point) {
+    check_finite(point, name_of("add_impulse", id), "point");
+    add_impulse(id, impulse);
+    const vec3 arm = to_glm(point) - impl_->table.poses[id.index].position;
+    add_angular_impulse(id, from_glm(cross3(arm, to_glm(impulse))));
+}
+
+void World::add_angular_impulse(BodyId id, Vec3 impulse) {
+    const uint slot = impl_->rigid_slot_of(id, "add_angular_impulse");
+    check_finite(impulse, name_of("add_angular_impulse", id), "angular impulse");
+    impl_->touch(slot, k_dirty_velocity);
+    BodyTable& table = impl_->table;
+    const BodyInertia inertia =
+        world_inertia(table.poses[slot].rotation, table.properties[slot].inverse_inertia, true);
+    table.velocities[slot].angular += multiply_inertia(inertia, to_glm(impulse));
+}
+
+float World::gravity_scale(BodyId id) const {
+    return impl_->table.properties[impl_->slot_of(id, "gravity_scale")].gravity_scale;
+}
+
+void World::set_gravity_scale(BodyId id, float scale) {
+    const uint slot = impl_->slot_of(id, "set_gravity_scale");
+    check_finite(scale, name_of("set_gravity_scale", id), "gravity scale");
+    impl_->touch(slot, k_dirty_properties);
+    impl_->table.properties[slot].gravity_scale = scale;
+}
+
+Material World::material(BodyId id) const {
+    return unpack_material(impl_->table.properties[impl_->slot_of(id, "material")]);
+}
+
+void World::set_material(BodyId id, const Material& material) {
+    const uint slot = impl_->slot_of(id, "set_material");
+    check_material(material, name_of("set_material", id));
+    impl_->touch(slot, k_dirty_properties);
+    BodyTable& table = impl_->table;
+    BodyProperties& properties = table.properties[slot];
+    table.bouncing_count += (material.restitution > 0.0f) - (properties.restitution > 0.0f);
+    properties.friction = material.friction;
+    properties.restitution = material.restitution;
+    properties.combine = pack_combine(material);
+}
+
+// ---- time ----
+
+void World::step(std::uint32_t count) { impl_->step(count); }
+void World::wait() const { impl_->simulation.settle(); }
+std::uint64_t World::step_count() const noexcept { return impl_->simulation.step_count(); }
+
+// ---- results ----
+
+std::vector<CollisionPair> World::collision_pairs() const {
+    impl_->simulation.settle();
+    std::vector<Pair> pairs(impl_->simulation.report().pairs);
+    const std::array requests{ReadRequest{BufferId::Pairs, pairs.size() * sizeof(Pair), pairs.data()}};
+    impl_->simulation.detection_device().read(requests);
+    std::ranges::sort(pairs, {}, [](const Pair& pair) { return std::pair(pair.body_a, pair.body_b); });
+    std::vector<CollisionPair> result;
+    result.reserve(pairs.size());
+    for (const Pair& pair : pairs)
+        if (impl_->both_present(pair.body_a, pair.body_b))
+            result.push_back({impl_->table.id_of(pair.body_a), impl_->table.id_of(pair.body_b)});
+    return result;
+}
+
+std::vector<Contact> World::contacts() const {
+    impl_->refresh();
+    const uint pair_count = impl_->simulation.report().pairs;
+    std::vector<Manifold> manifolds(pair_count);
+    std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
+    // The step's end has made its manifolds the old ones.
+    const std::array requests{
+        ReadRequest{BufferId::OldManifolds, manifolds.size() * sizeof(Manifold), manifolds.data()},
+        ReadRequest{BufferId::OldManifoldPoints, points.size() * sizeof(ManifoldPoint), points.data()},
+    };
+    impl_->simulation.state_device().read(requests);
+    std::vector<Contact> result;
+    for (uint i = 0; i < pair_count; ++i) {
+        const Manifold& manifold = manifolds[i];
+        if (manifold.point_count == 0 || !impl_->both_present(manifold.body_a, manifold.body_b)) continue;
+        Contact contact{impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b),
+                        from_glm(manifold.normal), {}};
+        for (std::size_t k = 0; k < manifold.point_count; ++k) {
+            const ManifoldPoint& point = points[std::size_t{4} * i + k];
+            contact.points.push_back({from_glm(impl_->table.poses[manifold.body_b].position + point.anchor_b),
+                                      point.separation, point.normal_impulse});
+        }
+        result.push_back(std::move(contact));
+    }
+    std::ranges::sort(result, {}, [](const Contact& c) { return std::pair(c.a.index, c.b.index); });
+    return result;
+}
+
+StepReport World::report() const {
+    impl_->simulation.settle();
+    return impl_->simulation.report();
+}
+
+std::uint64_t World::state_hash() const {
+    impl_->refresh();
+    // FNV-1a over words. Both zeros count as one: devices differ in which of the two a maximum gives.
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    const auto add_word = [&](float value) {
+        hash = (hash ^ (value == 0.0f ? 0u : floatBitsToUint(value))) * 0x100000001b3u;
+    };
+    const BodyTable& table = impl_->table;
+    for (uint slot = 0; slot < table.slot_count(); ++slot) {
+        if (!table.is_present(slot)) continue;
+        const BodyPose& pose = table.poses[slot];
+        const BodyVelocity& velocity = table.velocities[slot];
+        for (int i = 0; i < 3; ++i) {
+            add_word(pose.position[i]);
+            add_word(velocity.linear[i]);
+            add_word(velocity.angular[i]);
+        }
+        for (int i = 0; i < 4; ++i)
+            add_word(pose.rotation[i]);
+    }
+    return hash;
+}
+
+void World::keep_poses_coming(bool wanted) { impl_->poses_wanted = wanted; }
+
+World::PoseFrame World::newest_poses() const {
+    impl_->simulation.poll();
+    const std::span<const BodyPose> poses = impl_->simulation.newest_poses();
+    PoseFrame frame;
+    if (poses.empty()) return frame;
+    frame.step = impl_->simulation.report().step;
+    for (uint slot = 0; slot < std::min<std::size_t>(poses.size(), impl_->table.slot_count()); ++slot)
+        if (impl_->table.is_present(slot)) frame.poses.push_back(from_record(poses[slot]));
+    return frame;
+}
+
+// ---- the rest ----
+
+const Settings& World::settings() const noexcept { return impl_->settings; }
+
+void World::set_settings(const Settings& settings) { impl_->set_settings(checked(settings)); }
+
+const DeviceInfo& World::device() const noexcept { return impl_->simulation.device(); }
+
+MemoryUse World::memory() const noexcept {
+    const BodyTable& table = impl_->table;
+    const std::size_t per_body = sizeof(BodyPose) + sizeof(BodyVelocity) + sizeof(BodyShape) + sizeof(BodyProperties) +
+                                 sizeof(BodyLoad) + sizeof(float) + sizeof(Vec3) + 6;
+    return {impl_->simulation.memory_bytes(), table.slot_count() * per_body};
+}
+
+GlBuffers World::gl_buffers() const {
+    Device& device = impl_->simulation.detection_device();
+    if (device.gl_name(BufferId::Poses) == 0)
+        throw Error("gl_buffers: the world runs on the CPU, which has no OpenGL buffers");
+    impl_->upload_changes();
+    impl_->simulation.settle();
+    if (impl_->simulation.state_device().gl_name(BufferId::Poses) == 0) { // hybrid: the newest poses are the CPU's
+        impl_->refresh();
+        device.write(BufferId::Poses, 0, std::as_bytes(std::span(impl_->table.poses)));
+    }
+    GlBuffers names;
+    names.poses = device.gl_name(BufferId::Poses);
+    names.shapes = device.gl_name(BufferId::Shapes);
+    names.aabbs = device.gl_name(BufferId::Aabbs);
+    names.pairs = device.gl_name(BufferId::Pairs);
+    names.manifolds = device.gl_name(BufferId::OldManifolds);
+    names.contact_points = device.gl_name(BufferId::OldManifoldPoints);
+    names.counters = device.gl_name(BufferId::Counters);
+    names.body_capacity = impl_->table.slot_count();
+    names.pair_capacity = impl_->simulation.report().pairs;
+    return names;
+}
+
+void World::make_gl_current() const { impl_->simulation.detection_device().make_current(); }
+
+std::span<const char* const> stage_names() noexcept { return k_stage_names; }
+
+std::vector<DeviceInfo> list_devices() {
+    std::vector<DeviceInfo> devices;
+    for (GlProbe& probe : probe_gl()) {
+        if (probe.software && probe.info.why.empty()) probe.info.why = "software renderer: right, and slow";
+        devices.push_back(std::move(probe.info));
+    }
+    devices.push_back(make_cpu_device(0, false)->info());
+    return devices;
+}
+
+} // namespace talus
