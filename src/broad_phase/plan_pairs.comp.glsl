@@ -3,7 +3,8 @@
 // Reads: Counters.
 // Writes: Counters, Dispatches.
 // Needs: a barrier after the scan of the pair counts.
-// Overflow: says so in k_counter_did_not_fit, which keeps this step and all after it from changing the state.
+// Overflow: says so in k_counter_did_not_fit. Once that is set there are no pairs to treat, in this step and in those
+// behind it that are on their way already: the last step's manifolds must be there when the host does it again.
 #include "state/dispatch.shared.glsl"
 
 layout(local_size_x = 1) in;
@@ -14,8 +15,8 @@ layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 void main()
 {
     uint demand = counters[k_counter_pair_demand];
-    uint pair_count = min(demand, parameters.pair_capacity);
     if (demand > parameters.pair_capacity) counters[k_counter_did_not_fit] |= k_fit_pairs;
+    uint pair_count = counters[k_counter_did_not_fit] == 0u ? demand : 0u;
     counters[k_counter_pair_count] = pair_count;
     counters[k_counter_manifold_count] = 0u;
     counters[k_counter_contact_count] = 0u;

@@ -9,8 +9,8 @@ namespace talus::engine {
 static void plan_pairs_on_cpu(CpuState& state, const Launch&) {
     const Array<uint>& counters = state.counters;
     const uint demand = counters[k_counter_pair_demand];
-    const uint pair_count = min(demand, state.parameters.pair_capacity);
     if (demand > state.parameters.pair_capacity) counters[k_counter_did_not_fit] |= k_fit_pairs;
+    const uint pair_count = counters[k_counter_did_not_fit] == 0 ? demand : 0;
     counters[k_counter_pair_count] = pair_count;
     counters[k_counter_manifold_count] = 0;
     counters[k_counter_contact_count] = 0;

@@ -18,7 +18,8 @@ bool moves(uint body)
 void integrate_body_velocity(uint body)
 {
     if (!moves(body)) return;
-    vec4 rotation = multiply_quaternions(deltas[body].rotation, poses[body].rotation);
+    BodyDelta delta = deltas[body];
+    vec4 rotation = multiply_quaternions(delta.rotation, poses[body].rotation);
     BodyVelocity velocity = integrate_velocity(load_velocity(body), rotation, properties[body], inertias[body],
                                                loads[body], is_movable(shapes[body]), parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
@@ -31,5 +32,7 @@ void integrate_body_velocity(uint body)
 
 void integrate_body_position(uint body)
 {
-    if (moves(body)) deltas[body] = integrate_position(deltas[body], load_velocity(body), parameters.h);
+    if (!moves(body)) return;
+    BodyDelta delta = deltas[body]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
+    deltas[body] = integrate_position(delta, load_velocity(body), parameters.h);
 }

@@ -29,7 +29,7 @@ const uint k_no_colour = 0xffu; // not coloured yet
 // Words of the Counters buffer. "demand" counts what was wanted, also beyond a buffer's end.
 const uint k_counter_body_count = 0u;
 const uint k_counter_pair_demand = 1u;
-const uint k_counter_pair_count = 2u;     // min(demand, capacity)
+const uint k_counter_pair_count = 2u;     // 0 in a step that did not fit
 const uint k_counter_manifold_count = 3u; // pairs that touch
 const uint k_counter_contact_count = 4u;  // contact points
 const uint k_counter_colour_demand = 5u;  // colours in use, without the overflow set

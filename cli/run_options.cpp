@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// The options' names, limits and help texts.
+#include "cli/run_options.h"
+
+#include <cmath>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
+#include <fmt/format.h>
+
+#include "cli/words.h"
+
+namespace talus::cli {
+namespace {
+
+constexpr std::uint32_t k_baumgarte_iterations = 10;
+constexpr std::uint32_t k_largest_side = 8192; // pixels of a picture
+constexpr double k_most_frames = 1000.0;       // of a video, a second
+
+template <typename T> std::string list_words(Words<T> words, std::string_view between) {
+    std::string list;
+    for (const auto& [word, meaning] : words)
+        list += (list.empty() ? "" : std::string(between)) + std::string(word);
+    return list;
+}
+
+/// An option that takes one of a few words.
+template <typename T, typename Target>
+void add_choice(CLI::App& command, const std::string& name, Target& target, Words<T> words, const std::string& help) {
+    command
+        .add_option_function<std::string>(
+            name,
+            [name, &target, words](const std::string& given) {
+                for (const auto& [word, meaning] : words) {
+                    if (word == given) {
+                        target = meaning;
+                        return;
+                    }
+                }
+                throw CLI::ValidationError(name, fmt::format("'{}' is not one of {}", given, list_words(words, ", ")));
+            },
+            help)
+        ->type_name(list_words(words, "|"));
+}
+
+std::string check_seconds(const std::string& given) {
+    float seconds = 0.0f;
+    if (CLI::detail::lexical_cast(given, seconds) && std::isfinite(seconds) && seconds > 0.0f) return {};
+    return fmt::format("'{}' is not a positive number", given);
+}
+
+void set_overlays(render::Overlays& overlays, const std::string& list) {
+    for (const std::string& word : CLI::detail::split(list, ',')) {
+        if (word == "contacts") {
+            overlays.contacts = true;
+        } else if (word == "aabbs") {
+            overlays.aabbs = true;
+        } else if (word == "pairs") {
+            overlays.pairs = true;
+        } else {
+            throw CLI::ValidationError("--show", fmt::format("'{}' is not one of contacts, aabbs, pairs", word));
+        }
+    }
+}
+
+} // namespace
+
+void add_device_options(CLI::App& command, SimulationOptions& options) {
+    add_choice(command, "--device", options.device, device_words(),
+               "Where the step runs; auto: the GPU where there is a real one, otherwise the CPU");
+    command.add_option("--threads", options.threads, "Threads of the CPU device; 0: as many as the machine has")
+        ->check(CLI::Range(0u, 1024u))
+        ->type_name("N");
+}
+
+void add_simulation_options(CLI::App& command, SimulationOptions& options) {
+    command.add_option("scene", options.scene, "A built-in scene, as stack:height=30, or a file (.gltf, .glb)")
+        ->required()
+        ->type_name("SCENE");
+    command.add_option("--steps", options.steps, "Steps to simulate")
+        ->check(CLI::Range(0u, 1'000'000'000u))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--dt", options.dt, "Length of a step in seconds; by default 1/60")
+        ->check(CLI::Validator(check_seconds, ""))
+        ->type_name("S");
+    add_device_options(command, options);
+    command.add_option("--substeps", options.substeps, "Sub-steps of a step, for soft stabilisation; by default 4")
+        ->check(CLI::Range(1u, 1000u))
+        ->type_name("N");
+    command
+        .add_option("--iterations", options.iterations,
+                    fmt::format("Solver passes: in a sub-step for soft, by default 1; in a step for baumgarte, by "
+                                "default {}",
+                                k_baumgarte_iterations))
+        ->check(CLI::Range(1u, 10'000u))
+        ->type_name("N");
+    add_choice(command, "--stabilisation", options.stabilisation, stabilisation_words(),
+               "How overlap is undone: sub-steps with soft contacts, or a velocity bias");
+    add_choice(command, "--broad-phase", options.broad_phase, broad_phase_words(),
+               "How pairs are found: sweep and prune, or every pair");
+}
+
+void add_output_options(CLI::App& command, OutputOptions& options) {
+    command.add_option("--report", options.report, "Write counts, times and quality as JSON")->type_name("FILE.json");
+    command.add_option("--state", options.state, "Write every body as it is at the end as JSON")
+        ->type_name("FILE.json");
+    command.add_option("--record", options.recording, "Write every pose of every step (docs/recording.md)")
+        ->type_name("FILE");
+    command.add_option("--video", options.video, "Write a video")->type_name("FILE.mp4");
+    command.add_option("--image", options.image, "Write a picture of the end")->type_name("FILE.png");
+    command
+        .add_option_function<std::string>(
+            "--show", [&options](const std::string& list) { set_overlays(options.overlays, list); },
+            "What to draw over the bodies, separated by commas")
+        ->type_name("contacts,aabbs,pairs");
+    command.add_option("--width", options.width, "Pixels of a picture")
+        ->check(CLI::Range(16u, k_largest_side))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--height", options.height, "Pixels of a picture")
+        ->check(CLI::Range(16u, k_largest_side))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_option("--fps", options.frames_per_second, "Pictures of the video for each simulated second")
+        ->check(CLI::Range(1.0, k_most_frames))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_flag("--profile", options.profile, "Print how long each stage takes");
+    command.add_flag("--quiet", options.quiet, "Print nothing on standard output");
+}
+
+Settings settings_of(const scenes::Scene& scene, const SimulationOptions& options) {
+    Settings settings = scene.settings;
+    if (options.dt) settings.dt = *options.dt;
+    if (options.substeps) settings.substeps = *options.substeps;
+    if (options.broad_phase) settings.broad_phase = *options.broad_phase;
+    if (options.stabilisation) {
+        settings.stabilisation = *options.stabilisation;
+        if (settings.stabilisation == Stabilisation::Baumgarte) settings.iterations = k_baumgarte_iterations;
+    }
+    if (options.iterations) settings.iterations = *options.iterations;
+    return settings;
+}
+
+} // namespace talus::cli

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// A sampled step waits for the one before it and for itself. The CPU device has nothing to hide behind a wait, so there
+// every step is a sample; a GPU is sampled now and then only, since each wait keeps it from working ahead.
+#include "cli/timed_run.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace talus::cli {
+namespace {
+
+constexpr std::uint32_t k_gpu_samples = 50;
+
+double milliseconds(std::chrono::steady_clock::duration duration) {
+    return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+} // namespace
+
+Statistics statistics_of(std::vector<double> samples) {
+    if (samples.empty()) return {};
+    std::sort(samples.begin(), samples.end());
+    const std::size_t count = samples.size();
+    Statistics statistics;
+    statistics.median = 0.5 * (samples[(count - 1) / 2] + samples[count / 2]);
+    statistics.mean = std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(count);
+    statistics.p95 = samples[(count * 95 + 99) / 100 - 1]; // the smallest that 95 % do not exceed
+    statistics.max = samples.back();
+    return statistics;
+}
+
+TimedRun::TimedRun(scenes::Scene scene, const Settings& settings, const WorldOptions& options, std::uint32_t steps)
+    : source(std::move(scene)), simulated(settings, options), profile(options.profile) {
+    const bool runs_ahead = simulated.device().kind == DeviceKind::Gpu;
+    sample_interval = runs_ahead ? std::max(1u, steps / k_gpu_samples) : 1u;
+
+    std::vector<BodyDefinition> definitions;
+    definitions.reserve(source.bodies.size());
+    for (const scenes::NamedBody& body : source.bodies)
+        definitions.push_back(body.definition);
+    simulated.add(definitions);
+    simulated.wait();
+}
+
+void TimedRun::step() {
+    if (!running) {
+        running = true;
+        start = Clock::now();
+    }
+    ++times.steps;
+    if (times.steps % sample_interval == 0) {
+        sample_step();
+    } else {
+        simulated.step(1);
+    }
+}
+
+void TimedRun::settle() {
+    if (!running) return;
+    simulated.wait();
+    times.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    running = false;
+}
+
+void TimedRun::sample_step() {
+    simulated.wait();
+    const Clock::time_point before = Clock::now();
+    simulated.step(1);
+    simulated.wait();
+    times.step_ms.push_back(milliseconds(Clock::now() - before));
+    if (!profile) return;
+
+    const std::vector<double> stages = simulated.report().stage_ms;
+    times.stage_ms.resize(stages.size());
+    const double weight = 1.0 / static_cast<double>(times.step_ms.size());
+    for (std::size_t i = 0; i < stages.size(); ++i)
+        times.stage_ms[i] += weight * (stages[i] - times.stage_ms[i]);
+}
+
+} // namespace talus::cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A scene in a world, stepped and timed. docs/report.md says what the times mean.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include <talus/world.h>
+
+#include "scenes/scene.h"
+
+namespace talus::cli {
+
+/// Wall-clock times of the steps so far.
+struct Timing {
+    std::uint64_t steps = 0;
+    double seconds = 0.0;         ///< of all steps, without what lies between them
+    std::vector<double> step_ms;  ///< of the sampled steps
+    std::vector<double> stage_ms; ///< means over the sampled steps; empty where not profiled
+};
+
+struct Statistics {
+    double median = 0.0, mean = 0.0, p95 = 0.0, max = 0.0;
+};
+
+/// Zeros for no samples.
+Statistics statistics_of(std::vector<double> samples);
+
+class TimedRun {
+public:
+    /// `steps` is how many will be made: it decides how far apart the samples are.
+    TimedRun(scenes::Scene, const Settings&, const WorldOptions&, std::uint32_t steps);
+
+    const World& world() const noexcept { return simulated; }
+    const scenes::Scene& scene() const noexcept { return source; }
+
+    /// On a GPU it returns while the step is on its way, unless the step is sampled.
+    void step();
+    /// Waits for the steps and stops the clock until the next one: to be called before anything else is done.
+    void settle();
+
+    const Timing& timing() const noexcept { return times; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void sample_step();
+
+    scenes::Scene source;
+    World simulated;
+    Timing times;
+    std::uint32_t sample_interval;
+    bool profile;
+    bool running = false;
+    Clock::time_point start;
+};
+
+} // namespace talus::cli

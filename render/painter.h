@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Draws bodies from buffers. It neither knows a world nor cares who filled the buffers.
+#pragma once
+
+#include <cstdint>
+
+#include "render/gl_names.h"
+#include "render/view.h"
+
+namespace talus::render {
+
+/// OpenGL names and counts of what to draw.
+struct Drawing {
+    GLuint poses = 0;    ///< BodyPose a body slot
+    GLuint shapes = 0;   ///< BodyShape a body slot
+    GLuint slots = 0;    ///< uint: the body slots to draw, first boxes, then spheres
+    GLuint marks = 0;    ///< uint a body slot: 1 where the body is in a pair; 0: nothing is marked
+    GLuint contacts = 0; ///< vec4: xyz a contact point, world (m)
+    std::uint32_t box_count = 0, sphere_count = 0, contact_count = 0;
+    bool aabbs = false; ///< draw bounding boxes
+};
+
+class Painter {
+public:
+    Painter();
+    /// Into the framebuffer and viewport that are bound. Leaves other OpenGL state as it happens to be.
+    void paint(const View&, const Drawing&);
+
+private:
+    void fit_shadow(std::uint32_t body_count);
+    void paint_shadow(const Drawing&);
+    void paint_contacts(std::uint32_t count);
+    void draw_boxes(GLuint program, const Drawing&);
+    void draw_spheres(GLuint program, const Drawing&);
+
+    GLint shadow_size = 0; ///< texels a side
+    float shadow_blur = 0; ///< places a side that a shadow is averaged over
+    Program fit, box_shadow, sphere_shadow, box, sphere, background, aabb, contact;
+    // Every shader makes its vertices from their number; only boxes, which share corners within a face, have indices.
+    VertexArray no_vertices;
+    Buffer box_indices, view_block, shadow_bounds, no_marks;
+    Texture shadow_map;
+    Framebuffer shadow_target;
+};
+
+} // namespace talus::render

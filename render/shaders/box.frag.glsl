@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// A box face, with darker edges; with a grid where it is large and static.
+#include "shaders/surface.glsl"
+
+layout(location = 0) in vec3 world_position;
+layout(location = 1) in vec2 face_position;
+layout(location = 2) in vec3 shadow_position;
+layout(location = 3) flat in vec3 normal;
+layout(location = 4) flat in vec3 face_reach;
+layout(location = 5) flat in vec3 albedo;
+layout(location = 6) flat in uint kind;
+
+layout(location = 0) out vec4 colour;
+
+float grid_lines()
+{
+    vec2 d = abs(fract(face_position / sizes.y + 0.5) - 0.5) * sizes.y;
+    // A pixel covers more of the ground the flatter one looks at it.
+    vec2 covered = max(fwidth(face_position), 1e-6);
+    return max(line(d.x, 0.008 * sizes.y, covered.x), line(d.y, 0.008 * sizes.y, covered.y));
+}
+
+void main()
+{
+    vec3 to_eye = eye.xyz - world_position;
+    float eye_distance = length(to_eye);
+    to_eye /= eye_distance;
+    float pixel = eye.w * eye_distance / max(0.25, dot(normal, to_eye));
+
+    vec2 to_sides = face_reach.xy - abs(face_position);
+    vec3 surface = albedo * edge_line(min(to_sides.x, to_sides.y), face_reach.z, pixel);
+    if (kind == k_kind_static && min(face_reach.x, face_reach.y) >= 4.0 * sizes.y)
+        surface *= 1.0 + 0.35 * grid_lines();
+
+    vec3 lit = light_surface(surface, normal, to_eye, shadow_position);
+    colour = vec4(fade(lit, kind, world_position, gl_FragCoord.y), 1.0);
+}

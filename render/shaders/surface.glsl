@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// What boxes and spheres look like: sun with shadow, light from sky and ground, a faint gloss, darker lines along edges.
+
+layout(binding = 0) uniform sampler2DShadow shadow_map;
+
+uniform bool show_pairs;
+
+// A random number from 0 to 1, the same for a body in every picture.
+float noise(uint x)
+{
+    x = (x ^ (x >> 16)) * 0x7feb352du;
+    x = (x ^ (x >> 15)) * 0x846ca68bu;
+    return float((x ^ (x >> 16)) >> 8) / 16777216.0;
+}
+
+// Linear colours: static blue, rigid green, kinematic orange, in a pair red.
+vec3 colour_of(uint slot, uint kind)
+{
+    if (kind == k_kind_static) return vec3(0.115, 0.220, 0.460);
+    float brightness = 0.85 + 0.30 * noise(slot);
+    float warmth = noise(slot + 0x9e3779b9u) - 0.5;
+    vec3 colour = kind == k_kind_rigid ? vec3(0.165, 0.470, 0.135) : vec3(0.850, 0.290, 0.035);
+    vec3 tint = vec3(1.0 + 0.30 * warmth, 1.0, 1.0 - 0.26 * warmth);
+    if (show_pairs && marks[slot] != 0u) {
+        colour = vec3(0.700, 0.060, 0.045);
+        tint = vec3(1.0);
+    }
+    return colour * tint * brightness;
+}
+
+// 1 on a line of the given half width, d away from its middle; thinner than a pixel it pales instead of flickering.
+float line(float d, float half_width, float pixel)
+{
+    float w = max(half_width, 0.5 * pixel);
+    return (1.0 - smoothstep(w - 0.5 * pixel, w + 0.5 * pixel, d)) * min(1.0, half_width / w);
+}
+
+// What is left of a surface's colour d away from an edge of a body that reaches `size` from its centre.
+float edge_line(float d, float size, float pixel)
+{
+    return 1.0 - 0.62 * line(d, min(0.035 * size, 0.03 * sizes.x), pixel);
+}
+
+// Where the shadow map is looked up for a surface point: a texel or two off the surface, so that a surface does not
+// shadow itself.
+vec3 shadow_place(vec3 position, vec3 normal, vec3 lower, vec3 upper)
+{
+    float texel = max(upper.x - lower.x, upper.y - lower.y) / sizes.z;
+    return in_shadow_map(position + (0.5 + 0.75 * sizes.w) * texel * normal, lower, upper);
+}
+
+// 0 in full shadow to 1 in the sun: percentage-closer filter over a square of places, each filtered by the texture unit.
+float sunlight(vec3 p)
+{
+    vec2 border = min(p.xy, 1.0 - p.xy);
+    float inside = smoothstep(0.0, 0.02, min(border.x, border.y));
+    if (inside == 0.0) return 1.0;
+    p.z = min(p.z, 1.0);
+    int side = int(sizes.w);
+    vec2 first = p.xy - 0.75 * float(side - 1) / sizes.z;
+    float lit = 0.0;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x)
+            lit += textureLod(shadow_map, vec3(first + 1.5 * vec2(x, y) / sizes.z, p.z), 0.0);
+    }
+    return mix(1.0, lit / float(side * side), inside);
+}
+
+vec3 light_surface(vec3 colour, vec3 normal, vec3 to_eye, vec3 in_shadow)
+{
+    float facing = dot(normal, light_sun.xyz);
+    float sun = facing > 0.0 ? facing * sunlight(in_shadow) : 0.0;
+    vec3 sky = mix(vec3(0.14, 0.14, 0.16), vec3(0.35, 0.41, 0.50), 0.5 + 0.5 * normal.y);
+    // A little light from the eye's side keeps faces that the sun does not reach apart.
+    vec3 lit = colour * (sky + 0.10 * max(dot(normal, to_eye), 0.0) + vec3(0.98, 0.92, 0.82) * sun);
+    if (sun > 0.0) lit += 0.06 * min(sun, 1.0) * pow(max(dot(normal, normalize(light_sun.xyz + to_eye)), 0.0), 40.0);
+    return lit;
+}
+
+// Static bodies far from the middle of the picture fade into the background.
+vec3 fade(vec3 lit, uint kind, vec3 position, float picture_y)
+{
+    if (kind != k_kind_static) return lit;
+    return mix(lit, background(picture_y / viewport.y), smoothstep(0.7, 1.9, distance(position, target.xyz) / target.w));
+}

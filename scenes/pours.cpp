@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Scenes that fall: boxes hang in loose layers, randomly turned, over a basin of static walls, and come to rest in it.
+// Each box has a cell of its own that is as wide as the largest box's diagonal, so that none overlap at the start.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "scenes/builders.h"
+#include "scenes/camera.h"
+#include "scenes/random.h"
+#include "scenes/scene_builder.h"
+
+namespace talus::scenes {
+
+namespace {
+
+constexpr float k_wall_thickness = 2.0f; // m
+constexpr float k_jitter = 0.05f;        // m, to each side of the middle of a cell
+constexpr float k_diagonal = 1.733f;     // of a unit cube, rounded up
+constexpr float k_packing = 0.55f;       // of the volume is filled by boxes at rest; random piles reach 0.55 to 0.65
+
+/// Cells for `boxes`, `across` × `across` in a layer and about half as many layers.
+struct Cells {
+    std::uint32_t across = 1;
+    std::uint32_t layers = 1;
+    float pitch = 1.0f; // m
+
+    Cells(std::uint32_t boxes, float largest_edge)
+        : pitch(std::ceil(10.0f * (k_diagonal * largest_edge + 2.0f * k_jitter)) / 10.0f) {
+        const auto capacity = [](std::uint64_t side) { return side * side * std::max<std::uint64_t>(1, side / 2); };
+        while (capacity(across) < boxes)
+            ++across;
+        layers = (boxes + across * across - 1) / (across * across);
+    }
+
+    float height() const { return pitch * static_cast<float>(layers); }
+    float width() const { return pitch * static_cast<float>(across); }
+
+    Vec3 centre(std::uint32_t index, Random& random) const {
+        const std::uint32_t in_layer = index % (across * across);
+        const auto along = [&](std::uint32_t cell) {
+            return pitch * (static_cast<float>(cell) + 0.5f) + random.between(-k_jitter, k_jitter);
+        };
+        const float x = along(in_layer % across) - 0.5f * width();
+        const float y = along(index / (across * across));
+        const float z = along(in_layer / across) - 0.5f * width();
+        return {x, y, z};
+    }
+};
+
+void add_basin(SceneBuilder& builder, float half, float height) {
+    const float outer = half + k_wall_thickness;
+    builder.add_wall("left wall", {-outer, 0.0f, -outer}, {-half, height, outer});
+    builder.add_wall("right wall", {half, 0.0f, -outer}, {outer, height, outer});
+    builder.add_wall("back wall", {-half, 0.0f, -outer}, {half, height, -half});
+    builder.add_wall("front wall", {-half, 0.0f, half}, {half, height, outer});
+}
+
+/// Boxes with edges from `smallest` to `largest` fall into a basin that holds half as much again as they fill at rest,
+/// one on top, and the splash: the higher they fall from, the higher some jump.
+Scene make_pour(std::uint32_t boxes, std::uint64_t seed, float smallest, float largest) {
+    const Cells cells(boxes, largest);
+    const float half = 0.5f * cells.width();
+    const float mean_edge = 0.5f * (smallest + largest);
+    const float filled =
+        static_cast<float>(boxes) * mean_edge * mean_edge * mean_edge / (k_packing * cells.width() * cells.width());
+    const float wall_height = std::ceil(1.5f * filled + largest + 0.125f * cells.height());
+
+    SceneBuilder builder(half + 20.0f, half + 20.0f, boxes);
+    add_basin(builder, half, wall_height);
+    Random random(seed);
+    for (std::uint32_t i = 0; i < boxes; ++i) {
+        const Vec3 centre = cells.centre(i, random);
+        Vec3 size{largest, largest, largest};
+        if (smallest < largest) {
+            size.x = random.between(smallest, largest);
+            size.y = random.between(smallest, largest);
+            size.z = random.between(smallest, largest);
+        }
+        builder.add_box(centre, size, random.rotation());
+    }
+
+    // Escaped is also what gets as far as the middle of a wall, or over it.
+    Bounds bounds = builder.bounds();
+    const float middle = half + 0.5f * k_wall_thickness;
+    bounds.lower.x = bounds.lower.z = -middle;
+    bounds.upper.x = bounds.upper.z = middle;
+    const float outer = half + k_wall_thickness;
+    const Bounds region{{-outer, 0.0f, -outer}, {outer, wall_height, outer}};
+    return builder.finish(bounds, frame(region, {0.3f, 1.1f, 1.0f}));
+}
+
+} // namespace
+
+Scene make_pool(const Parameters& parameters) {
+    return make_pour(parameters.integer("boxes"), parameters.integer("seed"), 1.0f, 1.0f);
+}
+
+Scene make_pile(const Parameters& parameters) {
+    return make_pour(parameters.integer("boxes"), parameters.integer("seed"), 0.5f, 1.5f);
+}
+
+} // namespace talus::scenes
