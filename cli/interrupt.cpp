@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The handler only sets a flag: hardly anything else is allowed in one.
+// The handler only counts: hardly anything else is allowed in one.
 #include "cli/interrupt.h"
 
 #include <csignal>
@@ -7,11 +7,14 @@
 namespace talus::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+// timeout(1) sends its signal to the program and to the program's group: two at once are one wish.
+constexpr int k_patience = 2;
+
+volatile std::sig_atomic_t interrupts = 0;
 
 void remember(int signal) {
-    interrupted = 1;
-    std::signal(signal, SIG_DFL);
+    interrupts = interrupts + 1;
+    if (interrupts >= k_patience) std::signal(signal, SIG_DFL);
 }
 
 } // namespace
@@ -22,7 +25,7 @@ void catch_interrupts() {
 }
 
 void check_interrupt() {
-    if (interrupted != 0) throw Interrupted();
+    if (interrupts > 0) throw Interrupted();
 }
 
 } // namespace talus::cli

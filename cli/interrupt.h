@@ -11,7 +11,7 @@ public:
     Interrupted() : std::runtime_error("interrupted; no file was written") {}
 };
 
-/// From now on SIGINT and SIGTERM make `check_interrupt` throw; a second one ends the program at once.
+/// From now on SIGINT and SIGTERM make `check_interrupt` throw; a third one ends the program at once.
 void catch_interrupts();
 void check_interrupt();
 

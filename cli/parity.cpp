@@ -2,7 +2,11 @@
 // talus parity: the CPU and the GPU, stage by stage, one step from the same state.
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "cli/commands.h"
+#include "parity.h"
+#include "scenes/scene.h"
 
 namespace talus::cli {
 namespace {
@@ -15,7 +19,23 @@ struct Options {
 };
 
 int compare(const Options& options) {
-    throw Error("cannot compare devices on " + options.scene + ": this build has no comparison");
+    const scenes::Scene scene = scenes::make_scene(options.scene);
+    std::vector<BodyDefinition> definitions;
+    for (const scenes::NamedBody& body : scene.bodies)
+        definitions.push_back(body.definition);
+    const engine::ParityReport report = engine::compare_devices(definitions, scene.settings, options.steps);
+
+    fmt::print("{}, step {}: the same state on the CPU and on the GPU, compared after each stage\n", scene.name,
+               options.steps + 1);
+    fmt::print("{:<18}{:<20}{:>12}{:>16}{:>14}{:>14}\n", "stage", "buffer", "words", "integers differ",
+               "floats differ", "largest error");
+    for (const engine::BufferParity& row : report.rows)
+        fmt::print("{:<18}{:<20}{:>12}{:>16}{:>14}{:>14.2g}\n", row.stage, row.buffer, row.words, row.integers_differ,
+                   row.floats_differ, row.largest_error);
+    const bool agree = report.integers_agree() && report.largest_error() <= engine::k_parity_tolerance;
+    fmt::print("{}: integers {}, floats within {:.2g} (allowed {:.2g})\n", agree ? "agree" : "DISAGREE",
+               report.integers_agree() ? "exact" : "differ", report.largest_error(), engine::k_parity_tolerance);
+    return agree ? 0 : 1;
 }
 
 } // namespace

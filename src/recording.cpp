@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
 #include <unistd.h>
 #include <zstd.h>
 
@@ -230,7 +231,7 @@ RecordingWriter::RecordingWriter(const fs::path& path, const RecordingHeader& he
         fs::exists(status) && !fs::is_regular_file(status))
         impl_->fail("cannot be written: there is something of that name which is not a file");
     impl_->temporary = path;
-    impl_->temporary.replace_filename("." + path.filename().string() + "." + std::to_string(getpid()) + ".partial");
+    impl_->temporary.replace_filename(fmt::format(".{}.{}.partial", path.filename().string(), getpid()));
     ZSTD_CCtx_setParameter(impl_->compressor.get(), ZSTD_c_compressionLevel, k_compression_level);
     ZSTD_CCtx_setParameter(impl_->compressor.get(), ZSTD_c_checksumFlag, 1);
 

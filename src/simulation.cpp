@@ -120,21 +120,25 @@ void Simulation::step(uint body_count, bool some_body_bounces, bool with_poses) 
     enqueue({0, body_count, some_body_bounces, with_poses});
 }
 
-void Simulation::enqueue(const Pending& wanted) {
+StepPlan Simulation::plan_step(uint body_count, bool some_body_bounces) const {
     const Passes passes = passes_of(settings);
     StepPlan now = plan;
     now.broad_phase = settings.broad_phase;
-    now.body_count = wanted.body_count;
+    now.body_count = body_count;
     now.substeps = passes.substeps;
     now.iterations = passes.iterations;
     now.relax = passes.relax;
-    now.restitution = wanted.bounces;
-    now.one_group = wanted.body_count <= k_one_group_bodies;
+    now.restitution = some_body_bounces;
+    now.one_group = body_count <= k_one_group_bodies;
     if (now.one_group) { // colours need no launches there
         now.colour_capacity = k_max_colours;
         now.overflow = true;
     }
+    return now;
+}
 
+void Simulation::enqueue(const Pending& wanted) {
+    const StepPlan now = plan_step(wanted.body_count, wanted.bounces);
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);

@@ -28,11 +28,17 @@ public:
         write_bytes(buffer, first * sizeof(T), std::as_bytes(elements));
     }
 
+    /// Makes room for pairs, so that a step with no more of them fits.
+    void reserve_pairs(uint count);
+
     void set_settings(const Settings&);
-    /// Enqueues a step over the given body slots. Needs has_room() or waits for the oldest.
+    /// Enqueues a step over the given body slots; waits for the oldest one if too many are on their way.
     void step(uint body_count, bool some_body_bounces, bool with_poses);
     /// Waits until every step is done, and has fitted.
     void settle();
+
+    /// The plan of a step that would be enqueued now.
+    StepPlan plan_step(uint body_count, bool some_body_bounces) const;
 
     /// Whose buffers hold the state, and whose the pairs. Call settle() first.
     Device& state_device() const { return *placement.resolution; }
@@ -57,7 +63,6 @@ private:
     void write_bytes(BufferId, std::size_t offset, std::span<const std::byte>);
     void enqueue(const Pending&);
     void grow_everywhere(BufferId, std::size_t elements);
-    void reserve_pairs(uint count);
     void finish_oldest();
     void redo(std::span<const uint> counters);
     void follow_colours(uint colours, uint overflow);

@@ -200,6 +200,7 @@ TEST_F(Program, an_interrupted_run_leaves_no_file) {
     const Ending ending = shell("timeout -s INT 1 '" TALUS_PROGRAM_FILE "' run --device cpu stack --steps 100000000 "
                                 "--report report.json --record run.rec --quiet");
     EXPECT_TRUE(folder_is_empty());
+    EXPECT_NE(ending.status, 0);
     EXPECT_NE(ending.errors.find("interrupted"), std::string::npos);
 }
 

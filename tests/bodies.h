@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Bodies that many tests need, and arithmetic on the public vectors.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <talus/talus.h>
+
+#include "scenes/scene.h"
+
+namespace talus::tests {
+
+inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
+inline float length(Vec3 v) { return std::hypot(v.x, v.y, v.z); }
+inline bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// A turn by `angle` (rad) about a unit axis.
+inline Quat turn(Vec3 axis, float angle) {
+    const Vec3 u = axis * std::sin(0.5f * angle);
+    return {u.x, u.y, u.z, std::cos(0.5f * angle)};
+}
+
+inline BodyDefinition box_at(Vec3 position, Vec3 size = {1.0f, 1.0f, 1.0f}, BodyKind kind = BodyKind::Rigid) {
+    BodyDefinition definition;
+    definition.kind = kind;
+    definition.shape = Box{size};
+    definition.pose.position = position;
+    return definition;
+}
+
+inline BodyDefinition sphere_at(Vec3 position, float radius = 0.5f) {
+    BodyDefinition definition;
+    definition.shape = Sphere{radius};
+    definition.pose.position = position;
+    return definition;
+}
+
+/// A wide static box with its upper side at y = 0.
+inline BodyDefinition ground() { return box_at({0.0f, -1.0f, 0.0f}, {100.0f, 2.0f, 100.0f}, BodyKind::Static); }
+
+inline BodyDefinition with_material(BodyDefinition definition, float friction, float restitution = 0.0f) {
+    definition.material = {friction, restitution, Combine::Average, Combine::Average};
+    return definition;
+}
+
+inline std::vector<BodyDefinition> bodies_of(std::string_view scene_name) {
+    std::vector<BodyDefinition> definitions;
+    for (const scenes::NamedBody& body : scenes::make_scene(scene_name).bodies)
+        definitions.push_back(body.definition);
+    return definitions;
+}
+
+/// A plate that lies on the ground and carries side × side boxes: it has more contacts than there are colours from
+/// side = 8 on.
+inline std::vector<BodyDefinition> plate_of(std::uint32_t side) {
+    const float width = 1.25f * static_cast<float>(side);
+    std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.25f, 0.0f}, {width, 0.5f, width})};
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const float x = 1.25f * (static_cast<float>(i % side) + 0.5f) - 0.5f * width;
+        const float z = 1.25f * (static_cast<float>(i / side) + 0.5f) - 0.5f * width;
+        bodies.push_back(box_at({x, 1.0f, z}));
+    }
+    return bodies;
+}
+
+} // namespace talus::tests

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Steps with the inside in sight: a set of bodies on a device, whose buffers a test may read between steps.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "body_table.h"
+#include "parameters.h"
+#include "simulation.h"
+
+namespace talus::tests {
+
+class EngineRun {
+public:
+    EngineRun(const WorldOptions& options, const std::vector<BodyDefinition>& definitions, const Settings& wanted = {})
+        : settings(wanted), simulation(options) {
+        using engine::BufferId;
+        simulation.set_settings(settings);
+        for (const BodyDefinition& definition : definitions)
+            table.add(definition);
+        const engine::uint count = table.slot_count();
+        simulation.reserve_bodies(count);
+        simulation.write(BufferId::Poses, 0, std::span<const engine::BodyPose>(table.poses));
+        simulation.write(BufferId::Velocities, 0, std::span<const engine::BodyVelocity>(table.velocities));
+        simulation.write(BufferId::Shapes, 0, std::span<const engine::BodyShape>(table.shapes));
+        simulation.write(BufferId::Properties, 0, std::span<const engine::BodyProperties>(table.properties));
+        simulation.write(BufferId::Counters, engine::k_counter_body_count, std::span<const engine::uint>(&count, 1));
+    }
+
+    void step(engine::uint count = 1) {
+        for (engine::uint i = 0; i < count; ++i)
+            simulation.step(table.slot_count(), table.bouncing_count > 0, false);
+        simulation.settle();
+    }
+
+    /// A step as large worlds make it: a launch a colour and pass, where a small world has its solve in one work group.
+    void step_in_many_launches() {
+        engine::StepPlan plan = simulation.plan_step(table.slot_count(), table.bouncing_count > 0);
+        plan.one_group = false;
+        plan.colour_capacity = engine::k_max_colours;
+        plan.overflow = true;
+        engine::Device& device = simulation.state_device();
+        device.set_parameters(engine::make_parameters(settings, plan));
+        device.wait(engine::step({&device, &device}, plan, false));
+    }
+
+    template <typename T> std::vector<T> read(engine::BufferId buffer, std::size_t count) const {
+        std::vector<T> records(count);
+        const engine::ReadRequest request{buffer, count * sizeof(T), records.data()};
+        simulation.state_device().read({&request, 1});
+        return records;
+    }
+
+    engine::uint counter(engine::uint word) const {
+        return read<engine::uint>(engine::BufferId::Counters, engine::k_counter_words)[word];
+    }
+
+    /// The last step's manifolds, with impulses and colours; pairs that do not touch have no points.
+    std::vector<engine::Manifold> manifolds() const {
+        return read<engine::Manifold>(engine::BufferId::OldManifolds, counter(engine::k_counter_old_pair_count));
+    }
+
+    /// All poses and velocities as numbers. Two zeros of different sign are equal.
+    std::vector<float> motion() const {
+        std::vector<float> numbers = read<float>(engine::BufferId::Poses, 8 * std::size_t{table.slot_count()});
+        const std::vector<float> velocities =
+            read<float>(engine::BufferId::Velocities, 8 * std::size_t{table.slot_count()});
+        numbers.insert(numbers.end(), velocities.begin(), velocities.end());
+        return numbers;
+    }
+
+    Settings settings;
+    engine::BodyTable table;
+    engine::Simulation simulation;
+};
+
+} // namespace talus::tests
