@@ -180,6 +180,28 @@ TEST_P(Primitives, sort_keeps_the_order_of_equal_keys) {
     }
 }
 
+TEST_P(Primitives, both_ways_to_sort_give_the_same) {
+    constexpr uint limit = k_sort_in_group_keys;
+    for (const uint count : {0u, 1u, 2u, 3u, 31u, 33u, 511u, 512u, 513u, 1'025u, limit - 1, limit}) {
+        for (const uint below : {0u, 1u, 2u, 50u}) {
+            SCOPED_TRACE(testing::Message() << count << " keys below " << below);
+            const Words keys = random_words(count, below, count + below);
+            const Sorted in_group = sort(*device, keys, limit, 32);
+            ASSERT_TRUE(in_group == sort(*device, keys, limit + 1, 32));
+            ASSERT_TRUE(in_group == expected_sort(keys));
+        }
+    }
+}
+
+TEST_P(Primitives, keys_of_all_bits_stay_within_the_count) {
+    for (const uint count : {1u, 3u, 1'025u, 3'000u}) {
+        SCOPED_TRACE(count);
+        Words keys(count, 0xffffffffu);
+        keys.back() = 0;
+        ASSERT_TRUE(sort(*device, keys, count, 32) == expected_sort(keys));
+    }
+}
+
 TEST_P(Primitives, sort_takes_as_many_passes_as_the_bits_need) {
     for (const uint bits : {1u, 8u, 9u, 16u, 20u, 24u}) {
         SCOPED_TRACE(bits);
@@ -209,7 +231,7 @@ TEST_P(Primitives, key_offsets_tell_where_each_key_starts) {
         SCOPED_TRACE(count);
         const Words keys = random_words(count, 200, count);
         const Words sorted = sort(*device, keys, count, 8).keys;
-        copy_key_offsets(*device, BufferId::ColourOffsets, k_count);
+        find_key_offsets(*device, BufferId::SortKeys, BufferId::ColourOffsets, k_count);
         Words expected(k_digits + 1);
         for (uint key = 0; key <= k_digits; ++key)
             expected[key] = static_cast<uint>(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin());

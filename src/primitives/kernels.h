@@ -13,7 +13,8 @@ extern const Kernel scan_group;
 extern const Kernel scan_tiles;
 extern const Kernel count_digits;
 extern const Kernel scatter_keys;
-extern const Kernel copy_digit_offsets;
+extern const Kernel sort_in_group;
+extern const Kernel search_keys;
 
 /// Tiles that make a loop of a twin worth a second thread.
 inline constexpr uint k_parallel_tiles = 16;

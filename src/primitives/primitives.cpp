@@ -36,13 +36,8 @@ void scan(Device& device, BufferId values, uint capacity, uint count_counter, ui
     device.run({.kernel = scan_tiles, .items = value_capacity, .args = args, .bindings = {{"Values", values}}});
 }
 
-} // namespace
-
-void exclusive_scan(Device& device, BufferId values, uint capacity, uint count_counter, uint total_counter) {
-    scan(device, values, capacity, count_counter, total_counter, 1, 1);
-}
-
-void sort_by_key(Device& device, const Sort& sort) {
+/// A pass for every digit, from the lowest up, each stable.
+void sort_digit_by_digit(Device& device, const Sort& sort) {
     // A swap hands the scratch buffers to the caller, so they must be as large as what they are swapped for.
     reserve_words(device, sort.keys_swap, device.size(sort.keys) / sizeof(uint));
     reserve_words(device, sort.values_swap, device.size(sort.values) / sizeof(uint));
@@ -69,12 +64,26 @@ void sort_by_key(Device& device, const Sort& sort) {
     }
 }
 
-void copy_key_offsets(Device& device, BufferId offsets, uint count_counter) {
+} // namespace
+
+void exclusive_scan(Device& device, BufferId values, uint capacity, uint count_counter, uint total_counter) {
+    scan(device, values, capacity, count_counter, total_counter, 1, 1);
+}
+
+void sort_by_key(Device& device, const Sort& sort) {
+    if (sort.capacity > k_sort_in_group_keys) return sort_digit_by_digit(device, sort);
+    device.run({.kernel = sort_in_group,
+                .items = 1,
+                .args = {sort.count_counter},
+                .bindings = {{"Keys", sort.keys}, {"Values", sort.values}}});
+}
+
+void find_key_offsets(Device& device, BufferId keys, BufferId offsets, uint count_counter) {
     reserve_words(device, offsets, k_digits + 1);
-    device.run({.kernel = copy_digit_offsets,
+    device.run({.kernel = search_keys,
                 .items = k_digits + 1,
                 .args = {count_counter},
-                .bindings = {{"Offsets", offsets}}});
+                .bindings = {{"Keys", keys}, {"Offsets", offsets}}});
 }
 
 } // namespace talus::engine

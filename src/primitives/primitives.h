@@ -29,12 +29,13 @@ struct Sort {
     uint slot = k_none;
 };
 
-/// Sorts by key, lowest first; equal keys keep their order. Takes one pass for every 8 bits. Where the number of passes
-/// is odd, `keys` and `values` change places with the two scratch buffers (Device::swap).
+/// Sorts by key, lowest first; equal keys keep their order. A capacity of up to k_sort_in_group_keys (2,048) takes a
+/// single dispatch. A larger one takes a pass for every 8 bits; where the number of passes is odd, `keys` and `values`
+/// change places with the two scratch buffers (Device::swap).
 void sort_by_key(Device&, const Sort&);
 
-/// After sort_by_key with at most 8 bits: writes to `offsets` the number of keys below each of 0 to 255, and the number
-/// of all as word 256.
-void copy_key_offsets(Device&, BufferId offsets, uint count_counter);
+/// Of sorted keys of at most 8 bits: writes to `offsets` the number of keys below each of 0 to 255, and the number of
+/// all as word 256.
+void find_key_offsets(Device&, BufferId keys, BufferId offsets, uint count_counter);
 
 } // namespace talus::engine

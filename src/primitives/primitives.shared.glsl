@@ -7,6 +7,7 @@ const uint k_scan_tile = 2048u;      // k_scan_group * k_scan_run
 const uint k_sort_group = 256u;      // invocations of a group that sorts: one a digit where digits are treated
 const uint k_digit_bits = 8u;        // k_digits = 2 ^ k_digit_bits
 const uint k_mask_words = 8u;        // words of a bit mask over the invocations of a sorting group
+const uint k_sort_in_group_keys = 2048u; // most keys of a sort by a single group: 24 KiB of its shared memory
 
 inline uint divide_up(uint a, uint b)
 {

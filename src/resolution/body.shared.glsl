@@ -69,10 +69,40 @@ inline vec3 turn_freely(vec3 w, vec3 inverse_inertia, float h)
     return result;
 }
 
-// Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits.
-// `rotation` is the present one. Damping is the implicit 1 / (1 + h c).
-inline BodyVelocity integrate_velocity(BodyVelocity velocity, vec4 rotation, BodyProperties body, BodyInertia inertia,
-                                       BodyLoad load, bool rigid, Parameters p)
+// ---- warm start ----
+//
+// A sub-step starts from the impulses of the one before (thesis: accumulated and applied again). What they do to a body
+// is the change of its velocity from before the last sub-step's contacts to now, so a body finds its share by itself:
+// only the first sub-step of a step, whose impulses come from the last step, needs a pass over the contacts.
+
+inline BodyWarmStart no_warm_start(BodyVelocity velocity)
+{
+    BodyWarmStart warm;
+    warm.linear = vec3(0.0f, 0.0f, 0.0f);
+    warm.reserved_1 = 0.0f;
+    warm.angular = vec3(0.0f, 0.0f, 0.0f);
+    warm.reserved_2 = 0.0f;
+    warm.linear_before = velocity.linear;
+    warm.reserved_3 = 0.0f;
+    warm.angular_before = velocity.angular;
+    warm.reserved_4 = 0.0f;
+    return warm;
+}
+
+// Adds what the last sub-step's contacts have changed.
+inline BodyWarmStart gather_impulses(BodyWarmStart warm, BodyVelocity velocity)
+{
+    precise vec3 linear = warm.linear + (velocity.linear - warm.linear_before);
+    precise vec3 angular = warm.angular + (velocity.angular - warm.angular_before);
+    warm.linear = linear;
+    warm.angular = angular;
+    return warm;
+}
+
+// Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits; then
+// the warm start. `rotation` is the present one. Damping is the implicit 1 / (1 + h c).
+inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm, vec4 rotation, BodyProperties body,
+                                       BodyInertia inertia, BodyLoad load, bool rigid, Parameters p)
 {
     precise vec3 linear = velocity.linear + (p.gravity * body.gravity_scale + load.force * velocity.inverse_mass) * p.h;
     if (!rigid) { // a kinematic body: gravity if its caller asked for it, nothing else
@@ -86,8 +116,10 @@ inline BodyVelocity integrate_velocity(BodyVelocity velocity, vec4 rotation, Bod
     if (d.x != d.y || d.y != d.z) {
         angular = rotate(rotation, turn_freely(rotate_back(rotation, angular), d, p.h));
     }
-    velocity.linear = limit_length(scale3(linear, linear_factor), p.max_linear_speed);
-    velocity.angular = limit_length(scale3(angular, angular_factor), p.max_angular_speed);
+    precise vec3 started_linear = limit_length(scale3(linear, linear_factor), p.max_linear_speed) + warm.linear;
+    precise vec3 started_angular = limit_length(scale3(angular, angular_factor), p.max_angular_speed) + warm.angular;
+    velocity.linear = started_linear;
+    velocity.angular = started_angular;
     return velocity;
 }
 

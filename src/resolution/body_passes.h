@@ -17,14 +17,19 @@ inline bool moves(const CpuState& state, uint body) {
 inline void integrate_body_velocity(CpuState& state, uint body) {
     if (!moves(state, body)) return;
     const vec4 rotation = multiply_quaternions(state.deltas[body].rotation, state.poses[body].rotation);
-    BodyVelocity velocity =
-        integrate_velocity(state.velocities[body], rotation, state.properties[body], state.inertias[body],
-                           state.loads[body], is_movable(state.shapes[body]), state.parameters);
+    BodyVelocity velocity = state.velocities[body];
+    BodyWarmStart warm = gather_impulses(state.warm_starts[body], velocity);
+    velocity = integrate_velocity(velocity, warm, rotation, state.properties[body], state.inertias[body],
+                                  state.loads[body], is_movable(state.shapes[body]), state.parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();
+        warm = no_warm_start(velocity);
         state.poses[body].flags |= k_body_frozen;
         std::atomic_ref(state.counters[k_counter_frozen_bodies]).fetch_add(1);
     }
+    warm.linear_before = velocity.linear;
+    warm.angular_before = velocity.angular;
+    state.warm_starts[body] = warm;
     state.velocities[body] = velocity;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: forces of one sub-step.
 // Reads: Shapes, Properties, Loads, Inertias, Deltas, Poses.
-// Writes: Velocities; Poses (flags) and Counters where a body is frozen.
+// Writes: Velocities, WarmStarts; Poses (flags) and Counters where a body is frozen.
 // Needs: a barrier after prepare_bodies, and after the pass before.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"

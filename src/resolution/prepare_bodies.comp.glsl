@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: its inertia in world axes, and no movement yet.
-// Reads: Poses, Properties, Shapes.
-// Writes: Inertias, Deltas.
+// One invocation is a body slot: its inertia in world axes; no movement and no warm start yet.
+// Reads: Poses, Velocities, Properties, Shapes.
+// Writes: Inertias, Deltas, WarmStarts.
 // Needs: nothing.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -11,10 +11,12 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Poses { BodyPose poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
 layout(std430) readonly buffer Properties { BodyProperties properties[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) writeonly buffer Inertias { BodyInertia inertias[]; };
 layout(std430) writeonly buffer Deltas { BodyDelta deltas[]; };
+layout(std430) writeonly buffer WarmStarts { BodyWarmStart warm_starts[]; };
 
 void main()
 {
@@ -24,4 +26,5 @@ void main()
     bool movable = is_movable(shapes[body]) && (pose.flags & k_body_frozen) == 0u;
     inertias[body] = world_inertia(pose.rotation, properties[body].inverse_inertia, movable);
     deltas[body] = no_delta();
+    warm_starts[body] = no_warm_start(velocities[body]);
 }

@@ -12,6 +12,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch&) {
         const bool movable = is_movable(state.shapes[body]) && (pose.flags & k_body_frozen) == 0;
         state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia, movable);
         state.deltas[body] = no_delta();
+        state.warm_starts[body] = no_warm_start(state.velocities[body]);
     });
 }
 

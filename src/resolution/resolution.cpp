@@ -20,7 +20,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                          .count_counter = k_counter_pair_count,
                          .bits = 8,
                          .slot = k_dispatch_pair_tiles});
-    copy_key_offsets(device, BufferId::ColourOffsets, k_counter_pair_count);
+    find_key_offsets(device, BufferId::ManifoldColours, BufferId::ColourOffsets, k_counter_pair_count);
     device.run({.kernel = plan_colours, .items = 1});
 }
 
@@ -46,7 +46,8 @@ void solve(Device& device, const StepPlan& plan) {
     }
     for (uint substep = 0; substep < plan.substeps; ++substep) {
         device.run({.kernel = integrate_velocities, .slot = k_dispatch_bodies});
-        pass_over_contacts(device, plan, ContactPass::WarmStart);
+        // Later sub-steps find their warm start body by body (body.shared.glsl).
+        if (substep == 0) pass_over_contacts(device, plan, ContactPass::WarmStart);
         for (uint i = 0; i < plan.iterations; ++i)
             pass_over_contacts(device, plan, ContactPass::Solve);
         device.run({.kernel = integrate_positions, .slot = k_dispatch_bodies});

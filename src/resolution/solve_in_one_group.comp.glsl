@@ -3,7 +3,7 @@
 // and a dispatch otherwise. The passes and their order are those of solve() in resolution.cpp, and so are the bits.
 // args.x: 1 where some body bounces, otherwise 0.
 // Reads: Counters, ColourOffsets, Constraints, Inertias, Shapes, Properties, Loads.
-// Writes: Velocities, Deltas, ConstraintPoints (impulses); Poses (flags) and Counters where a body is frozen.
+// Writes: Velocities, Deltas, WarmStarts, ConstraintPoints (impulses); Poses (flags) and Counters where a body is frozen.
 // Needs: a barrier after prepare_contacts. At most k_one_group_bodies body slots.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -43,13 +43,15 @@ void store_velocity(uint body, BodyVelocity velocity)
 const uint k_integrate_velocities = 4u;
 const uint k_integrate_positions = 5u;
 
-// What pass a sub-step makes as its number `phase`.
-uint pass_of_phase(uint phase)
+// What pass a sub-step makes as its number `phase`. The first sub-step has a warm start besides.
+uint pass_of_phase(uint phase, bool first)
 {
+    uint first_solve = first ? 2u : 1u;
+    uint after_solves = first_solve + parameters.iterations;
     if (phase == 0u) return k_integrate_velocities;
-    if (phase == 1u) return k_warm_start;
-    if (phase < 2u + parameters.iterations) return k_solve;
-    return phase == 2u + parameters.iterations ? k_integrate_positions : k_relax;
+    if (phase < first_solve) return k_warm_start;
+    if (phase < after_solves) return k_solve;
+    return phase == after_solves ? k_integrate_positions : k_relax;
 }
 
 void main()
@@ -61,11 +63,11 @@ void main()
 
     uint colour_count = counters[k_counter_colour_demand];
     uint batch_count = colour_count + (counters[k_counter_overflow_count] > 0u ? 1u : 0u);
-    uint phase_count = 3u + parameters.iterations + parameters.relax;
     for (uint substep = 0u; substep < parameters.substeps + args.x; ++substep) {
         bool last = substep == parameters.substeps; // after the sub-steps: restitution alone
+        uint phase_count = (substep == 0u ? 3u : 2u) + parameters.iterations + parameters.relax;
         for (uint phase = 0u; phase < (last ? 1u : phase_count); ++phase) {
-            uint pass = last ? k_restitution : pass_of_phase(phase);
+            uint pass = last ? k_restitution : pass_of_phase(phase, substep == 0u);
             if (pass >= k_integrate_velocities) {
                 for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
                     if (pass == k_integrate_velocities)

@@ -18,7 +18,7 @@ static void solve_in_one_group_on_cpu(CpuState& state, const Launch& launch) {
     };
     for (uint substep = 0; substep < p.substeps; ++substep) {
         over_bodies(integrate_body_velocity);
-        over_contacts(ContactPass::WarmStart);
+        if (substep == 0) over_contacts(ContactPass::WarmStart);
         for (uint i = 0; i < p.iterations; ++i)
             over_contacts(ContactPass::Solve);
         over_bodies(integrate_body_position);

@@ -52,6 +52,7 @@ namespace talus::engine {
     X(SortedOrder, sorted_order, uint, "u", Scratch)                                                                   \
     X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
+    X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
     X(Constraints, constraints, ContactConstraint, "uuuufffffuuu", Result)                                             \
     X(ConstraintPoints, constraint_points, ContactConstraintPoint, "ffffffffffffffff", Result)                         \

@@ -62,6 +62,18 @@ struct BodyDelta {
     vec4 rotation; // world, from the rotation at the start of the step to the present one
 };
 
+// 64 bytes. What contacts do to a body's velocity in one sub-step, so that the next sub-step can start from it.
+struct BodyWarmStart {
+    vec3 linear; // m/s: the sum of all accumulated impulses at the body over its mass
+    float reserved_1;
+    vec3 angular; // rad/s
+    float reserved_2;
+    vec3 linear_before; // m/s: the velocity before the sub-step's contacts
+    float reserved_3;
+    vec3 angular_before; // rad/s
+    float reserved_4;
+};
+
 // 32 bytes. World inverse inertia at the start of the step: a symmetric matrix.
 struct BodyInertia {
     float xx; // 1/(kg m^2)

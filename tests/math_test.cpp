@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+// The shared formulas one by one, against the same in double precision.
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+#include <unordered_set>
+
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "parameters.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+namespace {
+
+constexpr uint k_mantissas = 1u << 23;
+
+/// |value - exact| in units in the last place of a float of the size of `exact`.
+double error_in_ulps(float value, double exact) {
+    const double ulp = std::ldexp(1.0, std::ilogb(exact) - 23);
+    return std::abs(value - exact) / ulp;
+}
+
+class Samples {
+public:
+    float number(float lower, float upper) { return std::uniform_real_distribution<float>(lower, upper)(random); }
+    vec3 vector(float size = 1.0f) {
+        const float x = number(-size, size), y = number(-size, size);
+        return {x, y, number(-size, size)};
+    }
+    vec3 direction() {
+        std::normal_distribution<double> normal;
+        const glm::dvec3 v(normal(random), normal(random), normal(random));
+        return glm::normalize(v);
+    }
+    vec4 rotation() {
+        std::normal_distribution<double> normal;
+        const glm::dvec4 q(normal(random), normal(random), normal(random), normal(random));
+        return glm::normalize(q);
+    }
+
+private:
+    std::mt19937 random{12345};
+};
+
+glm::dmat3 matrix_of(vec4 q) { return glm::mat3_cast(glm::dquat(q.w, q.x, q.y, q.z)); }
+
+double distance(glm::dvec3 a, glm::dvec3 b) { return glm::length(a - b); }
+
+// ---- numbers ----
+
+TEST(Math, reciprocal_is_within_two_units_in_the_last_place) {
+    // The method treats all exponents alike, so one is tried with every mantissa, and the others with some.
+    double largest = 0.0;
+    for (uint mantissa = 0; mantissa < k_mantissas; ++mantissa) {
+        const float x = uintBitsToFloat(0x3f800000u | mantissa);
+        largest = std::max(largest, error_in_ulps(reciprocal(x), 1.0 / x));
+    }
+    for (uint exponent = 2; exponent <= 251; ++exponent) {
+        for (uint mantissa = 0; mantissa < k_mantissas; mantissa += 10007) {
+            const float x = uintBitsToFloat(exponent << 23 | mantissa);
+            largest = std::max(largest, error_in_ulps(reciprocal(x), 1.0 / x));
+            ASSERT_EQ(reciprocal(-x), -reciprocal(x)) << x;
+        }
+    }
+    EXPECT_LE(largest, 2.0);
+}
+
+TEST(Math, inverse_square_root_is_within_two_units_in_the_last_place) {
+    double largest = 0.0;
+    for (const uint exponent : {0x3f800000u, 0x40000000u}) { // even and odd powers of two differ
+        for (uint mantissa = 0; mantissa < k_mantissas; ++mantissa) {
+            const float x = uintBitsToFloat(exponent | mantissa);
+            largest = std::max(largest, error_in_ulps(inverse_sqrt(x), 1.0 / std::sqrt(double{x})));
+        }
+    }
+    for (uint exponent = 1; exponent <= 254; ++exponent) {
+        for (uint mantissa = 0; mantissa < k_mantissas; mantissa += 10007) {
+            const float x = uintBitsToFloat(exponent << 23 | mantissa);
+            largest = std::max(largest, error_in_ulps(inverse_sqrt(x), 1.0 / std::sqrt(double{x})));
+        }
+    }
+    EXPECT_LE(largest, 2.0);
+}
+
+TEST(Math, square_root_of_nothing_is_nothing) {
+    EXPECT_TRUE(std::isfinite(inverse_sqrt(0.0f)));
+    EXPECT_EQ(square_root(0.0f), 0.0f);
+    EXPECT_EQ(length3(vec3(0.0f)), 0.0f);
+    EXPECT_NEAR(length3(vec3(3.0f, 4.0f, 12.0f)), 13.0f, 4e-6f);
+}
+
+TEST(Math, finite_numbers_are_told_from_the_others) {
+    using Limits = std::numeric_limits<float>;
+    for (const float x : {0.0f, -0.0f, 1.0f, -1.0f, Limits::max(), Limits::lowest(), Limits::min(), Limits::denorm_min()})
+        EXPECT_TRUE(is_finite(x)) << x;
+    for (const float x : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), -Limits::quiet_NaN()}) {
+        EXPECT_FALSE(is_finite(x)) << x;
+        for (int i = 0; i < 3; ++i) {
+            vec3 v(1.0f);
+            v[i] = x;
+            EXPECT_FALSE(is_finite3(v)) << i;
+        }
+    }
+}
+
+// ---- rotations ----
+
+TEST(Math, a_quaternion_turns_a_vector_as_its_matrix_does) {
+    Samples samples;
+    for (int i = 0; i < 10'000; ++i) {
+        const vec4 q = samples.rotation();
+        const vec3 v = samples.vector(10.0f);
+        const glm::dmat3 matrix = matrix_of(q);
+        const Axes axes = rotation_axes(q);
+        // 10 m times a few roundings of 6e-8 each.
+        ASSERT_LT(distance(rotate(q, v), matrix * glm::dvec3(v)), 1e-5);
+        ASSERT_LT(distance(rotate_back(q, v), glm::transpose(matrix) * glm::dvec3(v)), 1e-5);
+        ASSERT_LT(distance(to_world(axes, v), matrix * glm::dvec3(v)), 1e-5);
+        ASSERT_LT(distance(to_local(axes, v), glm::transpose(matrix) * glm::dvec3(v)), 1e-5);
+    }
+}
+
+TEST(Math, the_product_of_two_quaternions_turns_by_the_right_one_first) {
+    Samples samples;
+    for (int i = 0; i < 1'000; ++i) {
+        const vec4 a = samples.rotation(), b = samples.rotation();
+        const vec3 v = samples.vector();
+        ASSERT_LT(distance(rotate(multiply_quaternions(a, b), v), rotate(a, rotate(b, v))), 2e-6);
+    }
+}
+
+TEST(Math, a_rotation_is_integrated_to_fifth_order) {
+    Samples samples;
+    for (int i = 0; i < 10'000; ++i) {
+        const vec4 start = samples.rotation();
+        const vec3 axis = samples.direction();
+        const float angle = samples.number(0.0f, 0.8f), h = samples.number(1e-3f, 0.1f);
+        const vec4 end = integrate_rotation(start, axis * (angle / h), h);
+        const double s = std::sin(0.5 * angle);
+        const glm::dquat exact = glm::dquat(std::cos(0.5 * angle), s * axis.x, s * axis.y, s * axis.z) *
+                                 glm::dquat(start.w, start.x, start.y, start.z);
+        const glm::dquat off = glm::conjugate(exact) * glm::dquat(end.w, end.x, end.y, end.z);
+        const double angle_off = 2.0 * std::asin(glm::length(glm::dvec3(off.x, off.y, off.z)));
+        // The next term of tan(a/2) is a^5 / 240, and the angle is twice that.
+        ASSERT_LT(angle_off, std::pow(angle, 5) / 120.0 + 2e-6) << angle;
+        ASSERT_NEAR(end.x * end.x + end.y * end.y + end.z * end.z + end.w * end.w, 1.0f, 1e-6f);
+    }
+}
+
+TEST(Math, world_inertia_is_the_body_inertia_turned) {
+    Samples samples;
+    for (int i = 0; i < 1'000; ++i) {
+        const vec4 q = samples.rotation();
+        const vec3 inverse(samples.number(0.1f, 2.0f), samples.number(0.1f, 2.0f), samples.number(0.1f, 2.0f));
+        const vec3 v = samples.vector();
+        const glm::dmat3 r = matrix_of(q);
+        const glm::dvec3 expected = r * (glm::dvec3(inverse) * (glm::transpose(r) * glm::dvec3(v)));
+        ASSERT_LT(distance(multiply_inertia(world_inertia(q, inverse, true), v), expected), 3e-6);
+        ASSERT_EQ(multiply_inertia(world_inertia(q, inverse, false), v), vec3(0.0f));
+    }
+}
+
+TEST(Math, a_free_turn_keeps_energy_and_angular_momentum) {
+    Samples samples;
+    for (int i = 0; i < 1'000; ++i) {
+        const vec3 inertia(samples.number(0.5f, 2.0f), samples.number(0.5f, 2.0f), samples.number(0.5f, 2.0f));
+        const vec3 w = samples.vector(10.0f);
+        const vec3 next = turn_freely(w, 1.0f / inertia, 0.01f);
+        const auto energy = [&](vec3 a) { return glm::dot(glm::dvec3(inertia) * glm::dvec3(a), glm::dvec3(a)); };
+        const auto momentum = [&](vec3 a) { return glm::length(glm::dvec3(inertia) * glm::dvec3(a)); };
+        // A tenth of a radian a step, four rounds of iteration: float precision.
+        ASSERT_NEAR(energy(next) / energy(w), 1.0, 3e-5);
+        ASSERT_NEAR(momentum(next) / momentum(w), 1.0, 3e-5);
+    }
+}
+
+// ---- contacts ----
+
+TEST(Math, tangents_make_a_right_handed_frame_with_the_normal) {
+    Samples samples;
+    std::vector<vec3> normals{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (const float z : {1e-7f, -1e-7f, 1.0f - 1e-6f, -1.0f + 1e-6f})
+        normals.push_back(glm::normalize(vec3(std::sqrt(1.0f - z * z), 0.0f, z)));
+    for (int i = 0; i < 10'000; ++i)
+        normals.push_back(samples.direction());
+    for (const vec3 n : normals) {
+        const Tangents t = contact_tangents(n);
+        ASSERT_NEAR(glm::length(t.t1), 1.0f, 2e-6f);
+        ASSERT_NEAR(glm::length(t.t2), 1.0f, 2e-6f);
+        ASSERT_NEAR(glm::dot(t.t1, t.t2), 0.0f, 2e-6f);
+        ASSERT_LT(distance(glm::cross(t.t1, t.t2), n), 4e-6);
+    }
+}
+
+Parameters parameters_for(const Settings& settings) {
+    const Passes passes = passes_of(settings);
+    StepPlan plan;
+    plan.substeps = passes.substeps;
+    plan.iterations = passes.iterations;
+    plan.relax = passes.relax;
+    return make_parameters(settings, plan);
+}
+
+TEST(Math, a_soft_contact_never_overshoots) {
+    for (const float hertz : {0.001f, 1.0f, 30.0f, 1e5f}) {
+        for (const float damping : {0.0f, 1.0f, 10.0f, 1000.0f}) {
+            for (const std::uint32_t substeps : {1u, 4u, 100u}) {
+                Settings settings;
+                settings.contact_hertz = hertz;
+                settings.contact_damping_ratio = damping;
+                settings.substeps = substeps;
+                const Parameters p = parameters_for(settings);
+                SCOPED_TRACE(testing::Message() << hertz << " Hz, damping " << damping << ", sub-steps " << substeps);
+                for (const bool against_static : {false, true}) {
+                    const Softness s = contact_softness(against_static, p);
+                    // At most the whole overlap is removed in a sub-step, and the row is between absent and rigid.
+                    EXPECT_GE(s.bias_rate * p.h, 0.0f);
+                    EXPECT_LE(s.bias_rate * p.h, 1.0f);
+                    EXPECT_NEAR(s.mass_scale + s.impulse_scale, 1.0f, 1e-6f);
+                    EXPECT_GE(s.mass_scale, 0.0f);
+                    EXPECT_LE(s.mass_scale, 1.0f);
+                }
+                EXPECT_GE(p.static_mass_scale, p.mass_scale);
+                EXPECT_GE(p.static_bias_rate, p.bias_rate);
+            }
+        }
+    }
+}
+
+TEST(Math, softness_has_the_limits_of_its_spring) {
+    Settings settings;
+    settings.contact_hertz = 1e-3f;
+    settings.contact_damping_ratio = 1.0f;
+    Parameters p = parameters_for(settings);
+    EXPECT_LT(p.mass_scale, 1e-3f) << "a spring of almost no stiffness";
+    EXPECT_NEAR(p.bias_rate, std::numbers::pi_v<float> * 1e-3f, 1e-6f) << "w / 2z where h w is small";
+
+    // Stiffer than a quarter of the sub-step rate is not possible.
+    settings.contact_hertz = 0.25f * 4.0f * 60.0f;
+    p = parameters_for(settings);
+    settings.contact_hertz = 1e5f;
+    EXPECT_FLOAT_EQ(parameters_for(settings).bias_rate, p.bias_rate);
+    EXPECT_FLOAT_EQ(parameters_for(settings).static_bias_rate, p.static_bias_rate);
+
+    settings.stabilisation = Stabilisation::Baumgarte; // equation 3.17: beta / dt, and a rigid row
+    settings.baumgarte = 0.3f;
+    p = parameters_for(settings);
+    EXPECT_FLOAT_EQ(p.h, settings.dt);
+    EXPECT_FLOAT_EQ(p.bias_rate, 0.3f / settings.dt);
+    EXPECT_EQ(p.mass_scale, 1.0f);
+    EXPECT_EQ(p.impulse_scale, 0.0f);
+    EXPECT_EQ(p.relax, 0u);
+}
+
+TEST(Math, friction_stays_in_a_round_cone) {
+    Samples samples;
+    for (int i = 0; i < 1'000; ++i) {
+        ContactConstraintPoint point{};
+        point.normal_impulse = samples.number(0.0f, 10.0f);
+        point.tangent_impulse_1 = samples.number(-5.0f, 5.0f);
+        point.tangent_impulse_2 = samples.number(-5.0f, 5.0f);
+        point.tangent_mass_1 = point.tangent_mass_2 = 2.0f;
+        const float v1 = samples.number(-5.0f, 5.0f), v2 = samples.number(-5.0f, 5.0f);
+        const vec2 held = solve_friction_rows(point, v1, v2, 0.4f);
+        const vec2 free(point.tangent_impulse_1 - 2.0f * v1, point.tangent_impulse_2 - 2.0f * v2);
+        const float limit = 0.4f * point.normal_impulse;
+        ASSERT_LE(glm::length(held), limit * 1.00001f);
+        ASSERT_NEAR(glm::length(held), std::min(limit, glm::length(free)), 1e-5f * (1.0f + limit));
+        ASSERT_NEAR(held.x * free.y, held.y * free.x, 1e-4f) << "held in the direction it had";
+    }
+}
+
+TEST(Math, materials_combine_by_the_rule_that_is_listed_first) {
+    EXPECT_EQ(combine(0.2f, 0.6f, k_combine_average, k_combine_multiply), 0.4f);
+    EXPECT_EQ(combine(0.2f, 0.6f, k_combine_maximum, k_combine_minimum), 0.2f);
+    EXPECT_EQ(combine(0.2f, 0.6f, k_combine_multiply, k_combine_maximum), 0.6f);
+    EXPECT_FLOAT_EQ(combine(0.2f, 0.6f, k_combine_multiply, k_combine_multiply), 0.12f);
+}
+
+// ---- integers ----
+
+TEST(Math, ranks_differ_at_a_body) {
+    for (const uint body : {0u, 1u, 77u, 1'000'000u}) {
+        std::unordered_set<uint> ranks;
+        for (uint other = 0; other < 200'000; ++other) {
+            const uint rank = edge_rank(body, other);
+            ASSERT_NE(rank, 0u);
+            ASSERT_EQ(rank, edge_rank(other, body));
+            ASSERT_TRUE(ranks.insert(rank).second) << body << ", " << other;
+        }
+    }
+}
+
+RC_GTEST_PROP(Math, ranks_of_any_two_edges_at_a_body_differ, (uint body, uint b, uint c)) {
+    RC_PRE(b != c);
+    RC_ASSERT(edge_rank(body, b) != edge_rank(body, c));
+}
+
+RC_GTEST_PROP(Math, the_first_free_colour_is_free_and_the_lowest, (uint low, uint high)) {
+    const std::uint64_t used = std::uint64_t{high} << 32 | low;
+    const uint colour = first_free_colour(low, high);
+    RC_ASSERT(colour <= k_overflow_colour);
+    if (colour < k_max_colours) RC_ASSERT((used >> colour & 1) == 0);
+    for (uint lower = 0; lower < colour; ++lower)
+        RC_ASSERT((used >> lower & 1) == 1);
+}
+
+TEST(Math, when_all_colours_are_used_there_is_the_overflow_set) {
+    EXPECT_EQ(first_free_colour(UINT32_MAX, UINT32_MAX), k_overflow_colour);
+    EXPECT_EQ(first_free_colour(UINT32_MAX, 0x7fffffffu), 63u);
+}
+
+TEST(Math, launches_cover_their_items_within_the_limits_of_a_dimension) {
+    for (const uint group_size : {1u, 64u, 1024u}) {
+        for (const uint items : {0u, 1u, 63u, 64u, 65u, 65'535u, 65'536u, 65'535u * 64u, 65'535u * 64u + 1u, 50'000'000u}) {
+            const Dispatch d = groups_for(items, group_size);
+            const std::uint64_t groups = std::uint64_t{d.groups_x} * d.groups_y * d.groups_z;
+            SCOPED_TRACE(testing::Message() << items << " in groups of " << group_size);
+            EXPECT_EQ(d.items, items);
+            EXPECT_LE(d.groups_x, 65'535u);
+            EXPECT_LE(d.groups_y, 65'535u);
+            EXPECT_GE(groups * group_size, items);
+            EXPECT_EQ(groups == 0, items == 0);
+            // No more than a row of groups is idle.
+            EXPECT_LT(groups * group_size, items + std::uint64_t{d.groups_x} * group_size + 1);
+        }
+    }
+}
+
+RC_GTEST_PROP(Math, sweep_keys_sort_as_floats_do, (float a, float b)) {
+    RC_PRE(std::isfinite(a) && std::isfinite(b));
+    const SweepAxis sweep{0, 1e30f, 0, 0};
+    const auto key = [&](float lower) {
+        Aabb box{};
+        box.lower = vec3(lower, 0.0f, 0.0f);
+        box.upper = vec3(lower, 0.0f, 0.0f);
+        return sweep_key(box, sweep);
+    };
+    if (a < b) RC_ASSERT(key(a) < key(b));
+    RC_ASSERT(key(a) < k_large_key);
+}
+
+} // namespace
+} // namespace talus::engine
