@@ -16,15 +16,16 @@ inline float reciprocal(float x)
     return x < 0.0f ? -y : y;
 }
 
-// 1 / sqrt(x) to within 2 units in the last place, for normal x > 0; finite at 0. Newton's method on f(y) = 1/y^2 - x
-// from the guess that halves the exponent (3.4 %).
+// 1 / sqrt(x) to within 2 units in the last place, for x from 2^-125 on; finite at 0. Newton's method on f(y) = 1/y^2 - x
+// from the guess that halves the exponent (3.4 %). As a correction to y each round errs less than as a factor on it, which
+// leaves 2.2 units.
 inline float inverse_sqrt(float x)
 {
     precise float y = uintBitsToFloat(0x5f375a86u - (floatBitsToUint(x) >> 1));
     precise float half_x = 0.5f * x;
-    y = y * (1.5f - half_x * y * y);
-    y = y * (1.5f - half_x * y * y);
-    y = y * (1.5f - half_x * y * y);
+    y = y + y * (0.5f - half_x * y * y);
+    y = y + y * (0.5f - half_x * y * y);
+    y = y + y * (0.5f - half_x * y * y);
     return y;
 }
 
