@@ -102,13 +102,13 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     simulation.write(BufferId::Shapes, 0, std::span<const BodyShape>(table.shapes));
     simulation.write(BufferId::Properties, 0, std::span<const BodyProperties>(table.properties));
     simulation.write(BufferId::Counters, k_counter_body_count, std::span<const uint>(&body_count, 1));
-    const bool bounces = table.bouncing_count > 0;
+    const Population population = table.population();
     for (std::uint32_t i = 0; i < steps; ++i)
-        simulation.step(body_count, bounces, false);
+        simulation.step(population, false);
     simulation.settle();
-    simulation.reserve_pairs(2 * simulation.plan_step(body_count, bounces).pair_capacity); // the next step fits
+    simulation.reserve_pairs(2 * simulation.plan_step(population).pair_capacity); // the next step fits
 
-    StepPlan plan = simulation.plan_step(body_count, bounces);
+    StepPlan plan = simulation.plan_step(population);
     plan.colour_capacity = k_max_colours;
     plan.overflow = true;
     Device& cpu = simulation.state_device();

@@ -23,12 +23,12 @@ constexpr uint k_colour_window = 64;
 constexpr std::array k_body_buffers{
     BufferId::Poses,      BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
     BufferId::Aabbs,      BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
-    BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,
+    BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,
 };
 
 constexpr std::array k_pair_buffers{
     BufferId::Pairs,           BufferId::OldManifolds,    BufferId::Manifolds,   BufferId::Uncoloured,
-    BufferId::ManifoldColours, BufferId::ManifoldOrder,   BufferId::Constraints,
+    BufferId::ManifoldKeys, BufferId::ManifoldOrder,   BufferId::Constraints,
 };
 
 constexpr std::array k_point_buffers{
@@ -113,32 +113,29 @@ void Simulation::write_bytes(BufferId buffer, std::size_t offset, std::span<cons
 
 void Simulation::set_settings(const Settings& wanted) { settings = wanted; }
 
-void Simulation::step(uint body_count, bool some_body_bounces, bool with_poses) {
+void Simulation::step(const Population& population, bool with_poses) {
     poll();
     while (pending.size() >= k_most_pending)
         finish_oldest();
-    enqueue({0, body_count, some_body_bounces, with_poses});
+    enqueue({0, population, with_poses});
 }
 
-StepPlan Simulation::plan_step(uint body_count, bool some_body_bounces) const {
+StepPlan Simulation::plan_step(const Population& population) const {
     const Passes passes = passes_of(settings);
     StepPlan now = plan;
     now.broad_phase = settings.broad_phase;
-    now.body_count = body_count;
+    now.body_count = population.slots;
     now.substeps = passes.substeps;
     now.iterations = passes.iterations;
     now.relax = passes.relax;
-    now.restitution = some_body_bounces;
-    now.one_group = body_count <= k_one_group_bodies;
-    if (now.one_group) { // colours need no launches there
-        now.colour_capacity = k_max_colours;
-        now.overflow = true;
-    }
+    now.restitution = population.some_bounce;
+    now.by_island = population.slots <= k_island_bodies;
+    now.one_island = population.some_kinematic;
     return now;
 }
 
 void Simulation::enqueue(const Pending& wanted) {
-    const StepPlan now = plan_step(wanted.body_count, wanted.bounces);
+    const StepPlan now = plan_step(wanted.population);
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);

@@ -32,13 +32,13 @@ public:
     void reserve_pairs(uint count);
 
     void set_settings(const Settings&);
-    /// Enqueues a step over the given body slots; waits for the oldest one if too many are on their way.
-    void step(uint body_count, bool some_body_bounces, bool with_poses);
+    /// Enqueues a step; waits for the oldest one if too many are on their way.
+    void step(const Population&, bool with_poses);
     /// Waits until every step is done, and has fitted.
     void settle();
 
     /// The plan of a step that would be enqueued now.
-    StepPlan plan_step(uint body_count, bool some_body_bounces) const;
+    StepPlan plan_step(const Population&) const;
 
     /// Whose buffers hold the state, and whose the pairs. Call settle() first.
     Device& state_device() const { return *placement.resolution; }
@@ -55,8 +55,7 @@ public:
 private:
     struct Pending {
         Ticket ticket;
-        uint body_count;
-        bool bounces;
+        Population population;
         bool with_poses;
     };
 

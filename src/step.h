@@ -6,6 +6,13 @@
 
 namespace talus::engine {
 
+/// What the host knows of the bodies.
+struct Population {
+    uint slots = 0;               ///< body slots in use, holes included
+    bool some_bounce = false;     ///< there is a restitution above 0
+    bool some_kinematic = false;
+};
+
 /// What the host knows of a step before it runs: how large launches may be, and which passes there are.
 struct StepPlan {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
@@ -14,7 +21,8 @@ struct StepPlan {
     uint table_size = 0;      ///< slots of PairTable
     uint colour_capacity = 0; ///< colours that get launches
     bool overflow = false;    ///< the overflow set gets launches
-    bool one_group = false;   ///< small enough for solve_in_one_group
+    bool by_island = false;   ///< small enough for one work group an island
+    bool one_island = false;  ///< islands are not told apart: kinematic bodies may belong to several
     uint substeps = 0;
     uint iterations = 0;
     bool relax = false;

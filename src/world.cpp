@@ -100,7 +100,7 @@ struct World::Impl {
     void step(std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i) {
             upload_changes();
-            simulation.step(table.slot_count(), table.bouncing_count > 0, poses_wanted);
+            simulation.step(table.population(), poses_wanted);
             table.recycle();
         }
     }

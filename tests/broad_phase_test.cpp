@@ -1,1 +1,197 @@
 // SPDX-License-Identifier: MIT
+// Sweep and prune finds the pairs that brute force finds, and both find those of an oracle in double precision.
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/bodies.h"
+#include "tests/devices.h"
+
+namespace talus::tests {
+namespace {
+
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// What the oracle knows of a body at rest.
+struct Resting {
+    std::uint32_t index;
+    bool movable;
+    double lower[3], upper[3]; // m
+};
+
+Resting resting(const World& world, BodyId id) {
+    constexpr double k_margin = 0.01; // m, of a body at rest: half the distance at which contacts are seen
+    const Pose pose = world.pose(id);
+    const Shape shape = world.shape(id);
+    const auto [x, y, z, w] = pose.rotation;
+    const double rows[3][3] = {{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)},
+                               {2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)},
+                               {2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)}};
+    const double centre[3] = {pose.position.x, pose.position.y, pose.position.z};
+    Resting result{id.index, world.kind(id) == BodyKind::Rigid, {}, {}};
+    for (int i = 0; i < 3; ++i) {
+        double reach;
+        if (const auto* box = std::get_if<Box>(&shape))
+            reach = 0.5 * (std::abs(rows[i][0]) * box->size.x + std::abs(rows[i][1]) * box->size.y +
+                           std::abs(rows[i][2]) * box->size.z);
+        else
+            reach = std::get<Sphere>(shape).radius;
+        result.lower[i] = centre[i] - reach - k_margin;
+        result.upper[i] = centre[i] + reach + k_margin;
+    }
+    return result;
+}
+
+/// The largest gap between two boxes over the axes; negative where they overlap.
+double gap(const Resting& a, const Resting& b) {
+    double largest = -1e30;
+    for (int i = 0; i < 3; ++i)
+        largest = std::max({largest, a.lower[i] - b.upper[i], b.lower[i] - a.upper[i]});
+    return largest;
+}
+
+Pairs pairs_of(const World& world) {
+    Pairs pairs;
+    for (const CollisionPair& pair : world.collision_pairs())
+        pairs.emplace_back(pair.a.index, pair.b.index);
+    return pairs;
+}
+
+/// Lays every body to rest where it was, steps with the given broad phase, and gives the pairs.
+Pairs pairs_of_step(World& world, const std::vector<BodyId>& ids, const std::vector<Pose>& poses, BroadPhase kind) {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        world.set_pose(ids[i], poses[i]);
+        if (world.kind(ids[i]) != BodyKind::Static) world.set_velocity(ids[i], {});
+    }
+    Settings settings = world.settings();
+    settings.broad_phase = kind;
+    world.set_settings(settings);
+    world.step();
+    return pairs_of(world);
+}
+
+void expect_right_pairs(World& world) {
+    const std::vector<BodyId> ids = world.bodies();
+    const std::vector<Pose> poses = world.poses();
+    std::vector<Resting> oracle;
+    for (const BodyId id : ids)
+        oracle.push_back(resting(world, id));
+
+    const Pairs swept = pairs_of_step(world, ids, poses, BroadPhase::SweepAndPrune);
+    const Pairs brute = pairs_of_step(world, ids, poses, BroadPhase::Brute);
+    EXPECT_TRUE(swept == brute) << swept.size() << " pairs by sweep and prune, " << brute.size() << " by brute force";
+    EXPECT_TRUE(std::ranges::is_sorted(swept));
+    const std::set<std::pair<std::uint32_t, std::uint32_t>> found(swept.begin(), swept.end());
+    EXPECT_EQ(found.size(), swept.size()) << "a pair was found twice";
+
+    // Within a few roundings of touching either answer is right.
+    constexpr double k_rounding = 1e-4;
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < oracle.size(); ++i) {
+        for (std::size_t k = i + 1; k < oracle.size(); ++k) {
+            const double apart = gap(oracle[i], oracle[k]);
+            const bool movable = oracle[i].movable || oracle[k].movable;
+            const bool is_found = found.contains({oracle[i].index, oracle[k].index});
+            if (movable && apart < -k_rounding) {
+                EXPECT_TRUE(is_found) << oracle[i].index << ", " << oracle[k].index << " overlap by " << -apart;
+            } else if (!movable || apart > k_rounding) {
+                EXPECT_FALSE(is_found) << oracle[i].index << ", " << oracle[k].index << " are apart by " << apart;
+            }
+            expected += is_found ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(expected, found.size()) << "a pair of bodies that are not there";
+}
+
+class Clutter {
+public:
+    /// Bodies of all kinds and shapes, about two neighbours each.
+    BodyDefinition body() {
+        const auto number = [&](float lower, float upper) {
+            return std::uniform_real_distribution<float>(lower, upper)(random);
+        };
+        BodyDefinition definition;
+        const std::uint32_t dice = random() % 10;
+        definition.kind = dice == 0 ? BodyKind::Static : dice == 1 ? BodyKind::Kinematic : BodyKind::Rigid;
+        if (dice < 4)
+            definition.shape = Sphere{number(0.1f, 0.8f)};
+        else
+            definition.shape = Box{{number(0.1f, 2.0f), number(0.1f, 2.0f), number(0.1f, 2.0f)}};
+        definition.pose.position = {number(-9.0f, 9.0f), number(-4.0f, 4.0f), number(-6.0f, 6.0f)};
+        Quat& q = definition.pose.rotation;
+        q = {number(-1.0f, 1.0f), number(-1.0f, 1.0f), number(-1.0f, 1.0f), number(0.1f, 1.0f)};
+        const float size = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+        q = {q.x / size, q.y / size, q.z / size, q.w / size};
+        return definition;
+    }
+
+private:
+    std::mt19937 random{7};
+};
+
+Settings weightless() {
+    Settings settings;
+    settings.gravity = {};
+    return settings;
+}
+
+class BroadPhases : public OnDevice {};
+
+TEST_P(BroadPhases, agree_with_the_oracle_for_any_number_of_bodies) {
+    World world = make_world(weightless());
+    Clutter clutter;
+    for (const std::size_t size : {1u, 2u, 63u, 64u, 65u, 300u, 1000u}) {
+        SCOPED_TRACE(size);
+        while (world.body_count() < size)
+            world.add(clutter.body());
+        expect_right_pairs(world);
+    }
+}
+
+TEST_P(BroadPhases, agree_where_some_bodies_are_huge) {
+    World world = make_world(weightless());
+    Clutter clutter;
+    world.add(box_at({0.0f, -3.0f, 0.0f}, {500.0f, 1.0f, 500.0f}, BodyKind::Static));
+    for (int i = 0; i < 100; ++i)
+        world.add(clutter.body());
+    world.add(box_at({2.0f, 0.0f, 1.0f}, {60.0f, 2.0f, 60.0f})); // movable, and longer than the rest is wide
+    world.add(sphere_at({0.0f, 40.0f, 0.0f}, 39.0f));
+    for (int i = 0; i < 100; ++i)
+        world.add(clutter.body());
+    expect_right_pairs(world);
+}
+
+TEST_P(BroadPhases, agree_after_bodies_were_removed_and_their_places_taken) {
+    World world = make_world(weightless());
+    Clutter clutter;
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 200; ++i)
+        ids.push_back(world.add(clutter.body()));
+    world.step();
+    for (std::size_t i = 0; i < ids.size(); i += 3)
+        world.remove(ids[i]);
+    expect_right_pairs(world);
+    for (int i = 0; i < 30; ++i)
+        world.add(clutter.body());
+    EXPECT_LT(world.bodies().back().index, 200u) << "places are used again";
+    expect_right_pairs(world);
+    for (const BodyId id : world.bodies())
+        world.remove(id);
+    world.step();
+    EXPECT_TRUE(world.collision_pairs().empty());
+}
+
+TEST_P(BroadPhases, bodies_all_in_one_place_are_all_pairs) {
+    World world = make_world(weightless());
+    for (int i = 0; i < 70; ++i)
+        world.add(box_at({3.0f, 2.0f, 1.0f}));
+    world.step();
+    EXPECT_EQ(world.collision_pairs().size(), 70u * 69u / 2u);
+}
+
+TALUS_ON_EVERY_DEVICE(BroadPhases);
+
+} // namespace
+} // namespace talus::tests

@@ -1,1 +1,135 @@
 // SPDX-License-Identifier: MIT
+// The same scene ends in the same bits: run twice, with any number of threads, on every device, in one work group or in
+// many launches.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "tests/bodies.h"
+#include "tests/devices.h"
+#include "tests/engine_run.h"
+
+namespace talus::tests {
+namespace {
+
+struct Case {
+    const char* scene;
+    std::uint32_t steps;
+};
+// The last one has more bodies than one work group solves.
+const Case k_cases[]{{"stack", 100}, {"pyramid:base=8", 60}, {"pool:boxes=100", 60}, {"grid:stacks=230", 15}};
+
+std::uint64_t hash_of(const WorldOptions& options, const Case& c, const Settings& settings = {}) {
+    World world(settings, options);
+    world.add(bodies_of(c.scene));
+    world.step(c.steps);
+    return world.state_hash();
+}
+
+std::uint64_t hash_on_one_thread(const Case& c) {
+    WorldOptions options = options_on(DeviceKind::Cpu);
+    options.threads = 1;
+    return hash_of(options, c);
+}
+
+class Determinism : public OnDevice {};
+
+TEST_P(Determinism, the_state_is_that_of_one_cpu_thread) {
+    for (const Case& c : k_cases)
+        EXPECT_EQ(hash_of(options_on(GetParam()), c), hash_on_one_thread(c)) << c.scene;
+}
+
+TEST_P(Determinism, two_runs_end_in_the_same_bits) {
+    const Case c{"pool:boxes=70", 60};
+    EXPECT_EQ(hash_of(options_on(GetParam()), c), hash_of(options_on(GetParam()), c));
+    EXPECT_NE(hash_of(options_on(GetParam()), c), hash_of(options_on(GetParam()), {"pool:boxes=70", 61}));
+    EXPECT_NE(hash_of(options_on(GetParam()), c), hash_of(options_on(GetParam()), {"pool:boxes=70,seed=2", 60}));
+}
+
+TEST_P(Determinism, looking_at_the_state_changes_nothing) {
+    World watched = make_world(), unwatched = make_world();
+    watched.add(bodies_of("pool:boxes=50"));
+    unwatched.add(bodies_of("pool:boxes=50"));
+    watched.keep_poses_coming(true);
+    for (int i = 0; i < 40; ++i) {
+        watched.step();
+        watched.poses();
+        watched.contacts();
+        watched.collision_pairs();
+        watched.report();
+    }
+    unwatched.step(40);
+    EXPECT_EQ(watched.state_hash(), unwatched.state_hash());
+}
+
+TEST_P(Determinism, baumgarte_and_brute_force_are_repeatable_too) {
+    Settings settings;
+    settings.stabilisation = Stabilisation::Baumgarte;
+    settings.iterations = 10;
+    settings.broad_phase = BroadPhase::Brute;
+    const Case c{"pyramid:base=6", 30};
+    EXPECT_EQ(hash_of(options_on(GetParam()), c, settings), hash_of(options_on(DeviceKind::Cpu), c, settings));
+}
+
+TEST_P(Determinism, one_work_group_gives_the_bits_of_many_launches) {
+    if (GetParam() == DeviceKind::Hybrid) return; // its resolution is the CPU's
+    std::vector<BodyDefinition> bodies = bodies_of("pool:boxes=60");
+    for (BodyDefinition& body : bodies)
+        body.material.restitution = 0.3f;
+    EngineRun small(options_on(GetParam()), bodies), large(options_on(GetParam()), bodies);
+    small.simulation.reserve_pairs(4096); // the steps of many launches are made without growth
+    large.simulation.reserve_pairs(4096);
+    for (int i = 0; i < 60; ++i) {
+        small.step();
+        large.step_in_many_launches();
+        ASSERT_TRUE(small.motion() == large.motion()) << "step " << i;
+    }
+    EXPECT_GT(small.counter(engine::k_counter_contact_count), 50u) << "the scene must have contacts by now";
+}
+
+TALUS_ON_EVERY_DEVICE(Determinism);
+
+TEST(Threads, any_number_ends_in_the_same_bits) {
+    for (const Case& c : k_cases) {
+        const std::uint64_t expected = hash_on_one_thread(c);
+        for (const std::uint32_t threads : {2u, 3u, 8u}) {
+            WorldOptions options = options_on(DeviceKind::Cpu);
+            options.threads = threads;
+            EXPECT_EQ(hash_of(options, c), expected) << c.scene << ", " << threads << " threads";
+        }
+    }
+}
+
+/// What hash_of_scene prints, with so many threads for llvmpipe.
+std::string hash_in_child(const Case& c, int driver_threads) {
+    const std::string command = "LP_NUM_THREADS=" + std::to_string(driver_threads) + " '" TALUS_HASH_PROGRAM "' " +
+                                c.scene + " " + std::to_string(c.steps);
+    std::FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return "no process";
+    std::array<char, 64> text{};
+    const std::size_t length = std::fread(text.data(), 1, text.size(), pipe);
+    const int status = pclose(pipe);
+    return status == 0 ? std::string(text.data(), length) : "exit status " + std::to_string(status);
+}
+
+class DriverThreads : public testing::TestWithParam<DeviceKind> {};
+
+TEST_P(DriverThreads, do_not_change_the_bits) {
+    TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
+    // llvmpipe with threads of its own runs work groups at the same time, as hardware does.
+    for (const Case& c : {Case{"pool:boxes=70", 40}, Case{"grid:stacks=230", 5}}) {
+        std::array<char, 32> expected{};
+        std::snprintf(expected.data(), expected.size(), "%016llx\n",
+                      static_cast<unsigned long long>(hash_on_one_thread(c)));
+        EXPECT_EQ(hash_in_child(c, 0), expected.data()) << c.scene;
+        EXPECT_EQ(hash_in_child(c, 2), expected.data()) << c.scene;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Devices, DriverThreads, testing::Values(DeviceKind::Gpu),
+                         [](const auto& test) { return name_of(test.param); });
+
+} // namespace
+} // namespace talus::tests

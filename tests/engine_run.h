@@ -30,14 +30,14 @@ public:
 
     void step(engine::uint count = 1) {
         for (engine::uint i = 0; i < count; ++i)
-            simulation.step(table.slot_count(), table.bouncing_count > 0, false);
+            simulation.step(table.population(), false);
         simulation.settle();
     }
 
     /// A step as large worlds make it: a launch a colour and pass, where a small world has its solve in one work group.
     void step_in_many_launches() {
-        engine::StepPlan plan = simulation.plan_step(table.slot_count(), table.bouncing_count > 0);
-        plan.one_group = false;
+        engine::StepPlan plan = simulation.plan_step(table.population());
+        plan.by_island = false;
         plan.colour_capacity = engine::k_max_colours;
         plan.overflow = true;
         engine::Device& device = simulation.state_device();

@@ -1,1 +1,81 @@
 // SPDX-License-Identifier: MIT
+// One step from the same state on the CPU and on the GPU, compared buffer by buffer after every stage.
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "parity.h"
+#include "state/stages.h"
+#include "tests/bodies.h"
+#include "tests/devices.h"
+
+namespace talus::tests {
+namespace {
+
+using engine::BufferParity;
+using engine::ParityReport;
+
+struct Case {
+    const char* scene;
+    std::uint32_t steps; // until the state is interesting: resting, or in the middle of the fall
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
+
+class Parity : public testing::TestWithParam<Case> {};
+
+void expect_parity(const ParityReport& report) {
+    std::set<std::string> stages;
+    for (const BufferParity& row : report.rows) {
+        SCOPED_TRACE(row.buffer + " after " + row.stage);
+        EXPECT_EQ(row.integers_differ, 0u);
+        EXPECT_LE(row.largest_error, engine::k_parity_tolerance);
+        EXPECT_GT(row.words, 0u);
+        stages.insert(row.stage);
+    }
+    for (const char* stage : stage_names())
+        EXPECT_TRUE(stages.contains(stage)) << "no buffer was compared after " << stage;
+    EXPECT_TRUE(report.integers_agree());
+    EXPECT_LE(report.largest_error(), engine::k_parity_tolerance);
+}
+
+TEST_P(Parity, every_stage_gives_the_same_on_both_devices) {
+    TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
+    const scenes::Scene scene = scenes::make_scene(GetParam().scene);
+    expect_parity(engine::compare_devices(bodies_of(GetParam().scene), scene.settings, GetParam().steps));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Parity,
+                         testing::Values(Case{"stack", 0}, Case{"stack", 30}, Case{"pool:boxes=100", 90},
+                                         Case{"extreme_stack", 5}, Case{"pyramid:base=10", 30},
+                                         Case{"wall:width=10,height=8", 30}, Case{"columns:side=11,height=10", 5},
+                                         Case{"grid:stacks=30", 10}, Case{"pile:boxes=150", 90}));
+
+TEST(ParityOfMixedBodies, holds_for_spheres_spin_bounces_and_the_other_settings) {
+    TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
+    std::vector<BodyDefinition> bodies{with_material(ground(), 0.4f, 0.5f)};
+    for (int i = 0; i < 40; ++i) {
+        const Vec3 position{static_cast<float>(i % 5), 1.0f + 1.1f * static_cast<float>(i / 5), 0.3f * static_cast<float>(i % 3)};
+        BodyDefinition body = i % 3 == 0 ? sphere_at(position, 0.4f) : box_at(position, {0.9f, 0.5f, 0.7f});
+        body = with_material(body, 0.1f * static_cast<float>(i % 7), 0.2f * static_cast<float>(i % 4));
+        body.velocity = {{0.0f, -3.0f, 1.0f}, {1.0f, 5.0f, -2.0f}};
+        body.linear_damping = 0.1f;
+        bodies.push_back(body);
+    }
+    bodies.push_back(box_at({6.0f, 0.5f, 0.0f}, {1.0f, 1.0f, 4.0f}, BodyKind::Kinematic));
+    bodies.back().velocity.linear = {-1.0f, 0.0f, 0.0f};
+    Settings settings;
+    expect_parity(engine::compare_devices(bodies, settings, 40));
+    settings.stabilisation = Stabilisation::Baumgarte;
+    settings.iterations = 8;
+    settings.broad_phase = BroadPhase::Brute;
+    expect_parity(engine::compare_devices(bodies, settings, 40));
+}
+
+TEST(ParityOfMixedBodies, holds_where_colours_run_out) {
+    TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
+    expect_parity(engine::compare_devices(plate_of(9), {}, 5));
+}
+
+} // namespace
+} // namespace talus::tests

@@ -20,6 +20,8 @@ void main()
     counters[k_counter_pair_count] = pair_count;
     counters[k_counter_manifold_count] = 0u;
     counters[k_counter_contact_count] = 0u;
+    counters[k_counter_colour_demand] = 0u;
+    counters[k_counter_overflow_count] = 0u;
     counters[k_counter_uncoloured] = 0u;
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);

@@ -14,6 +14,8 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch&) {
     counters[k_counter_pair_count] = pair_count;
     counters[k_counter_manifold_count] = 0;
     counters[k_counter_contact_count] = 0;
+    counters[k_counter_colour_demand] = 0;
+    counters[k_counter_overflow_count] = 0;
     counters[k_counter_uncoloured] = 0;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     state.dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);

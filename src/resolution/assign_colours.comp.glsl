@@ -2,7 +2,7 @@
 // One group: colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its
 // bodies takes the smallest colour free at both (Jones and Plassmann).
 // Reads: Counters, Manifolds, Shapes.
-// Writes: ManifoldColours; BodyColours and Uncoloured as it goes.
+// Writes: ManifoldKeys (the colour), Counters; BodyColours and Uncoloured as it goes.
 // Needs: a barrier after keep_colours.
 // Overflow: a manifold with no colour left at its bodies joins the overflow set.
 #include "state/math.shared.glsl"
@@ -11,10 +11,10 @@
 
 layout(local_size_x = 1024) in;
 
-layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
-layout(std430) writeonly buffer ManifoldColours { uint manifold_colours[]; };
+layout(std430) writeonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) coherent buffer BodyColours { uint body_colours[]; };
 layout(std430) coherent buffer Uncoloured { uint uncoloured[]; };
 
@@ -56,7 +56,8 @@ void propose(uint entry, uint rank_word)
     if (pair == k_none) return;
     Edge edge = load_edge(pair);
     if (free_colour(edge) == k_overflow_colour) { // colours are never given back
-        manifold_colours[pair] = k_overflow_colour;
+        manifold_keys[pair] = k_overflow_colour;
+        atomicAdd(counters[k_counter_overflow_count], 1u);
         uncoloured[entry] = k_none;
         return;
     }
@@ -86,7 +87,8 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
     for (uint end = 0u; end < 2u; ++end) {
         if (edge.movable[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (colour & 31u);
     }
-    manifold_colours[pair] = colour;
+    manifold_keys[pair] = colour;
+    atomicMax(counters[k_counter_colour_demand], colour + 1u);
     uncoloured[entry] = k_none;
 }
 

@@ -30,8 +30,12 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
             high |= state.body_colours[body_word(body, k_used_high)];
         }
         const uint colour = first_free_colour(low, high);
-        state.manifold_colours[edge.pair] = colour;
-        if (colour == k_overflow_colour) continue;
+        state.manifold_keys[edge.pair] = colour;
+        if (colour == k_overflow_colour) {
+            ++state.counters[k_counter_overflow_count];
+            continue;
+        }
+        state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
         for (const uint body : {manifold.body_a, manifold.body_b}) {
             if (is_movable(state.shapes[body]))
                 state.body_colours[body_word(body, colour < 32 ? k_used_low : k_used_high)] |= 1u << (colour & 31u);

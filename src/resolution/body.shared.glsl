@@ -99,8 +99,15 @@ inline BodyWarmStart gather_impulses(BodyWarmStart warm, BodyVelocity velocity)
     return warm;
 }
 
+// The implicit 1 / (1 + h c). Without damping it is 1, not a rounding less: a body in free flight keeps its speed.
+inline float damping_factor(float damping, float h)
+{
+    precise float factor = reciprocal(1.0f + h * damping);
+    return damping > 0.0f ? factor : 1.0f;
+}
+
 // Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits; then
-// the warm start. `rotation` is the present one. Damping is the implicit 1 / (1 + h c).
+// the warm start. `rotation` is the present one.
 inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm, vec4 rotation, BodyProperties body,
                                        BodyInertia inertia, BodyLoad load, bool rigid, Parameters p)
 {
@@ -110,8 +117,8 @@ inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm
         return velocity;
     }
     precise vec3 angular = velocity.angular + multiply_inertia(inertia, load.torque) * p.h;
-    precise float linear_factor = reciprocal(1.0f + p.h * body.linear_damping);
-    precise float angular_factor = reciprocal(1.0f + p.h * body.angular_damping);
+    float linear_factor = damping_factor(body.linear_damping, p.h);
+    float angular_factor = damping_factor(body.angular_damping, p.h);
     vec3 d = body.inverse_inertia;
     if (d.x != d.y || d.y != d.z) {
         angular = rotate(rotation, turn_freely(rotate_back(rotation, angular), d, p.h));

@@ -2,7 +2,7 @@
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
 // is valid), a new one is listed as uncoloured. Also counts manifolds and contact points.
 // Reads: Manifolds, Shapes.
-// Writes: ManifoldColours, ManifoldOrder (the pair), BodyColours, Uncoloured, Counters. The order of the list depends
+// Writes: ManifoldKeys (the colour), ManifoldOrder (the pair), BodyColours, Uncoloured, Counters. The order of the list depends
 // on who comes first; nothing that is made from it does.
 // Needs: barriers after clear_colours and collide_pairs.
 // Overflow: none; the list has room for every pair.
@@ -14,7 +14,7 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
-layout(std430) writeonly buffer ManifoldColours { uint manifold_colours[]; };
+layout(std430) writeonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) writeonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) buffer BodyColours { uint body_colours[]; };
 layout(std430) writeonly buffer Uncoloured { uint uncoloured[]; };
@@ -34,15 +34,17 @@ void main()
     Manifold manifold = manifolds[pair];
     uint colour = k_inactive_colour;
     if (manifold.point_count > 0u) {
+        atomicAdd(counters[k_counter_manifold_count], 1u);
         atomicAdd(counters[k_counter_contact_count], manifold.point_count);
         colour = manifold.colour;
         if (colour < k_max_colours) {
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
+            atomicMax(counters[k_counter_colour_demand], colour + 1u);
         } else {
             uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair;
         }
     }
-    manifold_colours[pair] = colour;
+    manifold_keys[pair] = colour;
     manifold_order[pair] = pair;
 }

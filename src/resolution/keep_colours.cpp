@@ -16,16 +16,18 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
         const Manifold& manifold = state.manifolds[pair];
         uint colour = k_inactive_colour;
         if (manifold.point_count > 0) {
+            ++state.counters[k_counter_manifold_count];
             state.counters[k_counter_contact_count] += manifold.point_count;
             colour = manifold.colour;
             if (colour < k_max_colours) {
                 use_colour(manifold.body_a, colour);
                 use_colour(manifold.body_b, colour);
+                state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
             } else {
                 state.uncoloured[state.counters[k_counter_uncoloured]++] = pair;
             }
         }
-        state.manifold_colours[pair] = colour;
+        state.manifold_keys[pair] = colour;
         state.manifold_order[pair] = pair;
     }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One invocation: what the colouring came to, and the launches of the resolution.
+// One invocation: whether the colours fit, and the launches of the resolution. args.x: 1 where the world is solved
+// island by island, so that colours need no launches.
 // Reads: ColourOffsets, Counters.
 // Writes: Counters, Dispatches.
-// Needs: a barrier after the sort of the manifolds by colour.
+// Needs: a barrier after the sort of the manifolds.
 // Overflow: more colours than the host has launches for are said in k_counter_did_not_fit. Where that is set, by this
 // step or an earlier one, all launches are empty.
 #include "state/dispatch.shared.glsl"
@@ -15,24 +16,19 @@ layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 
 void main()
 {
-    uint colour_demand = 0u;
-    for (uint colour = 0u; colour < k_max_colours; ++colour) {
-        if (colour_offsets[colour] < colour_offsets[colour + 1u]) colour_demand = colour + 1u;
-    }
-    uint overflow_count = colour_offsets[k_overflow_colour + 1u] - colour_offsets[k_overflow_colour];
-    if (colour_demand > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u))
+    bool by_island = args.x == 1u;
+    uint overflow_count = counters[k_counter_overflow_count];
+    if (!by_island && (counters[k_counter_colour_demand] > parameters.colour_capacity ||
+                       (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         counters[k_counter_did_not_fit] |= k_fit_colours;
-    uint manifold_count = colour_offsets[k_inactive_colour];
-    counters[k_counter_colour_demand] = colour_demand;
-    counters[k_counter_overflow_count] = overflow_count;
-    counters[k_counter_manifold_count] = manifold_count;
 
     uint on = counters[k_counter_did_not_fit] == 0u ? 1u : 0u;
     dispatches[k_dispatch_once] = groups_for(on, 1u);
     dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);
-    dispatches[k_dispatch_manifolds] = groups_for(on * manifold_count, k_group_size);
+    dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
+    dispatches[k_dispatch_islands] = groups_for(on * parameters.body_count, 1u);
     for (uint colour = 0u; colour < k_max_colours; ++colour) {
-        uint count = colour_offsets[colour + 1u] - colour_offsets[colour];
+        uint count = by_island ? 0u : colour_offsets[colour + 1u] - colour_offsets[colour];
         dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     }
     dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1u);

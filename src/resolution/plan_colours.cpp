@@ -6,28 +6,24 @@
 
 namespace talus::engine {
 
-static void plan_colours_on_cpu(CpuState& state, const Launch&) {
+static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
+    const bool by_island = launch.args[0] == 1;
     const Array<uint>& offsets = state.colour_offsets;
     const Array<uint>& counters = state.counters;
-    const auto count_of = [&](uint colour) { return offsets[colour + 1] - offsets[colour]; };
-
-    uint colour_demand = 0;
-    for (uint colour = 0; colour < k_max_colours; ++colour)
-        if (count_of(colour) > 0) colour_demand = colour + 1;
-    const uint overflow_count = count_of(k_overflow_colour);
-    if (colour_demand > state.parameters.colour_capacity ||
-        (overflow_count > 0 && state.parameters.overflow_capacity == 0))
+    const uint overflow_count = counters[k_counter_overflow_count];
+    if (!by_island && (counters[k_counter_colour_demand] > state.parameters.colour_capacity ||
+                       (overflow_count > 0 && state.parameters.overflow_capacity == 0)))
         counters[k_counter_did_not_fit] |= k_fit_colours;
-    counters[k_counter_colour_demand] = colour_demand;
-    counters[k_counter_overflow_count] = overflow_count;
-    counters[k_counter_manifold_count] = offsets[k_inactive_colour];
 
     const uint on = counters[k_counter_did_not_fit] == 0 ? 1 : 0;
     state.dispatches[k_dispatch_once] = groups_for(on, 1);
     state.dispatches[k_dispatch_bodies] = groups_for(on * state.parameters.body_count, k_group_size);
     state.dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
-    for (uint colour = 0; colour < k_max_colours; ++colour)
-        state.dispatches[k_dispatch_colours + colour] = groups_for(on * count_of(colour), k_group_size);
+    state.dispatches[k_dispatch_islands] = groups_for(on * state.parameters.body_count, 1);
+    for (uint colour = 0; colour < k_max_colours; ++colour) {
+        const uint count = by_island ? 0 : offsets[colour + 1] - offsets[colour];
+        state.dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
+    }
     state.dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1);
 }
 

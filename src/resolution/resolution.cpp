@@ -2,26 +2,33 @@
 // The launches of the resolution, in order.
 #include "resolution/resolution.h"
 
+#include <bit>
+
 #include "primitives/primitives.h"
 #include "resolution/contact_passes.h"
 #include "step.h"
 
 namespace talus::engine {
 
+// Islands have the numbers of their body slots, and one more stands for pairs that do not touch.
+static constexpr uint k_island_key_bits = k_colour_bits + std::bit_width(k_island_bodies);
+
 void constraint_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_colours, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
     device.run({.kernel = assign_colours, .items = 1});
-    sort_by_key(device, {.keys = BufferId::ManifoldColours,
+    if (plan.by_island) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island}});
+    sort_by_key(device, {.keys = BufferId::ManifoldKeys,
                          .values = BufferId::ManifoldOrder,
-                         .keys_swap = BufferId::SortedColours,
-                         .values_swap = BufferId::SortedOrder,
+                         .keys_swap = BufferId::SortedManifoldKeys,
+                         .values_swap = BufferId::SortedManifoldOrder,
                          .capacity = plan.pair_capacity,
                          .count_counter = k_counter_pair_count,
-                         .bits = 8,
+                         .bits = plan.by_island ? k_island_key_bits : k_colour_bits,
                          .slot = k_dispatch_pair_tiles});
-    find_key_offsets(device, BufferId::ManifoldColours, BufferId::ColourOffsets, k_counter_pair_count);
-    device.run({.kernel = plan_colours, .items = 1});
+    if (!plan.by_island)
+        find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
+    device.run({.kernel = plan_colours, .items = 1, .args = {plan.by_island}});
 }
 
 void prepare(Device& device) {
@@ -40,8 +47,8 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 }
 
 void solve(Device& device, const StepPlan& plan) {
-    if (plan.one_group) {
-        device.run({.kernel = solve_in_one_group, .slot = k_dispatch_once, .args = {plan.restitution}});
+    if (plan.by_island) {
+        device.run({.kernel = solve_islands, .slot = k_dispatch_islands, .args = {plan.restitution}});
         return;
     }
     for (uint substep = 0; substep < plan.substeps; ++substep) {

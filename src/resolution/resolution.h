@@ -8,7 +8,8 @@ namespace talus::engine {
 
 struct StepPlan;
 
-/// Colours every manifold: no two of one colour share a body that contacts can push.
+/// Colours every manifold: no two of one colour share a body that contacts can push. A small world is divided into
+/// islands besides, as these are independent.
 void constraint_graph(Device&, const StepPlan&);
 /// Effective masses and the solver's records, in the order of colours.
 void prepare(Device&);
@@ -20,13 +21,14 @@ void store_impulses(Device&);
 extern const Kernel clear_colours;
 extern const Kernel keep_colours;
 extern const Kernel assign_colours;
+extern const Kernel find_islands;
 extern const Kernel plan_colours;
 extern const Kernel prepare_bodies;
 extern const Kernel prepare_contacts;
 extern const Kernel integrate_velocities;
 extern const Kernel integrate_positions;
 extern const Kernel solve_contacts;
-extern const Kernel solve_in_one_group;
+extern const Kernel solve_islands;
 extern const Kernel store_contact_impulses;
 
 } // namespace talus::engine

@@ -8,7 +8,7 @@ namespace talus::engine {
 static void store_contact_impulses_on_cpu(CpuState& state, const Launch&) {
     state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
         const ContactConstraint& constraint = state.constraints[index];
-        state.manifolds[constraint.manifold].colour = state.manifold_colours[index];
+        state.manifolds[constraint.manifold].colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
         for (std::size_t i = 0; i < constraint.point_count; ++i) {
             const ContactConstraintPoint& point = state.constraint_points[std::size_t{4} * index + i];
             ManifoldPoint& target = state.manifold_points[std::size_t{4} * constraint.manifold + i];

@@ -23,7 +23,8 @@ const uint k_combine_multiply = 3u;
 // The constraint graph: colours 0 to k_max_colours - 1, then the overflow set, then pairs that do not touch.
 const uint k_max_colours = 64u;
 const uint k_overflow_colour = 64u;
-const uint k_inactive_colour = 65u;
+const uint k_inactive_colour = 127u;
+const uint k_colour_bits = 7u; // of a manifold's key: the colour in the low bits, the island above
 const uint k_no_colour = 0xffu; // not coloured yet
 
 // Words of the Counters buffer. "demand" counts what was wanted, also beyond a buffer's end.
@@ -52,7 +53,8 @@ const uint k_dispatch_old_pairs = 2u;  // groups of 64 pairs of the last step
 const uint k_dispatch_once = 3u;       // one group
 const uint k_dispatch_bodies = 4u;     // groups of 64 bodies
 const uint k_dispatch_manifolds = 5u;  // groups of 64 manifolds
-const uint k_dispatch_colours = 6u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
+const uint k_dispatch_islands = 6u;    // one group for each body slot, which may lead an island
+const uint k_dispatch_colours = 7u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
 const uint k_dispatch_overflow = k_dispatch_colours + k_max_colours; // one group if there is an overflow set
 const uint k_dispatch_count = k_dispatch_overflow + 1u;
 
@@ -60,4 +62,4 @@ const uint k_group_size = 64u;   // invocations a group of kernels that treat on
 const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
-const uint k_one_group_bodies = 1024u; // body slots of a world that one work group solves
+const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island

@@ -25,5 +25,6 @@ namespace talus::engine {
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/contact.shared.glsl"
+#include "resolution/island.shared.glsl"
 
 } // namespace talus::engine

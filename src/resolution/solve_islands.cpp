@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// CPU twin of solve_in_one_group.comp.glsl.
+// CPU twin of solve_islands.comp.glsl.
 #include "resolution/body_passes.h"
 #include "resolution/contact_passes.h"
 #include "resolution/resolution.h"
 
 namespace talus::engine {
 
-static void solve_in_one_group_on_cpu(CpuState& state, const Launch& launch) {
+static void solve_islands_on_cpu(CpuState& state, const Launch& launch) {
+    // Islands do not touch each other, so it is all the same whether they take their passes together or apart.
     const Parameters& p = state.parameters;
     const auto over_bodies = [&](const auto& pass) {
         for (uint body = 0; body < p.body_count; ++body)
@@ -27,6 +28,6 @@ static void solve_in_one_group_on_cpu(CpuState& state, const Launch& launch) {
     if (launch.args[0] == 1) over_contacts(ContactPass::Restitution);
 }
 
-const Kernel solve_in_one_group{"resolution/solve_in_one_group", solve_in_one_group_on_cpu, 1};
+const Kernel solve_islands{"resolution/solve_islands", solve_islands_on_cpu, 1};
 
 } // namespace talus::engine

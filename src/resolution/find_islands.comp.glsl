@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// One group: islands, the sets of rigid bodies that contacts join, by hooking the larger root to the smaller one and
+// pointer jumping. An island is named by its lowest body slot, whoever comes first. Bodies that touch nothing share an
+// island: they are many, and each has next to nothing to do. args.x: 1 makes one island of all bodies that move.
+// Reads: Counters, Manifolds, Shapes; ManifoldKeys, the colours.
+// Writes: Islands; ManifoldKeys, island and colour.
+// Needs: a barrier after assign_colours. At most k_island_bodies body slots.
+// Overflow: none.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "resolution/island.shared.glsl"
+
+layout(local_size_x = 1024) in;
+
+layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
+layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) writeonly buffer Islands { uint islands[]; };
+layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
+
+shared uint roots[k_island_bodies];
+shared bool touches[k_island_bodies];
+shared uint first_mover; // of those that touch nothing; of all, if all are one island
+shared bool changed;
+
+// The last two bodies of the chain meet in a root, which points at itself.
+uint root_of(uint body)
+{
+    uint root = body;
+    while (roots[root] != root) root = roots[root];
+    return root;
+}
+
+void main()
+{
+    uint me = gl_LocalInvocationID.x;
+    uint pair_count = counters[k_counter_pair_count];
+    if (me == 0u) first_mover = k_none;
+    barrier();
+    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
+        roots[body] = is_mover(shapes[body]) ? body : k_none;
+        touches[body] = false;
+    }
+    bool done = args.x == 1u;
+    while (!done) {
+        barrier();
+        if (me == 0u) changed = false;
+        barrier();
+        for (uint pair = me; pair < pair_count; pair += gl_WorkGroupSize.x) {
+            uint body_a = manifolds[pair].body_a;
+            uint body_b = manifolds[pair].body_b;
+            if (manifolds[pair].point_count == 0u) continue;
+            touches[body_a] = true;
+            touches[body_b] = true;
+            if (is_movable(shapes[body_a]) && is_movable(shapes[body_b])) {
+                uint root_a = roots[body_a];
+                uint root_b = roots[body_b];
+                if (root_a != root_b) {
+                    atomicMin(roots[max(root_a, root_b)], min(root_a, root_b));
+                    changed = true;
+                }
+            }
+        }
+        barrier();
+        for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
+            if (roots[body] != k_none) roots[body] = root_of(body);
+        }
+        barrier();
+        done = !changed;
+    }
+    barrier();
+    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
+        if (roots[body] != k_none && !touches[body]) atomicMin(first_mover, body);
+    }
+    barrier();
+    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
+        if (roots[body] != k_none && !touches[body]) roots[body] = first_mover;
+    }
+    barrier();
+
+    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x)
+        islands[body] = roots[body];
+    for (uint pair = me; pair < pair_count; pair += gl_WorkGroupSize.x) {
+        uint colour = manifold_keys[pair];
+        uint island = k_island_bodies; // after all others
+        if (colour != k_inactive_colour) {
+            uint body_a = manifolds[pair].body_a;
+            island = roots[is_movable(shapes[body_a]) ? body_a : manifolds[pair].body_b];
+        }
+        manifold_keys[pair] = manifold_key(island, colour);
+    }
+}

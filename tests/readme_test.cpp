@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// The documentation: the first program of README.md runs and prints what stands there, the commands exist, the links
+// and the named files are there, and docs/architecture.md has the stages in run order.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <talus/world.h>
+
+#include "scenes/scene.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path k_root = TALUS_SOURCE_FOLDER;
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    EXPECT_TRUE(file) << path << " cannot be read";
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+    std::istringstream stream(line);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// The code blocks of a Markdown file that are marked with this language.
+std::vector<std::string> blocks_of(const std::string& text, const std::string& language) {
+    std::vector<std::string> blocks;
+    bool inside = false, wanted = false;
+    for (const std::string& line : lines_of(text)) {
+        if (line.starts_with("```")) {
+            wanted = !inside && line == "```" + language;
+            inside = !inside;
+            if (wanted) blocks.emplace_back();
+        } else if (inside && wanted) {
+            blocks.back() += line + '\n';
+        }
+    }
+    return blocks;
+}
+
+struct Ending {
+    int status;
+    std::string output;
+};
+
+Ending run(const std::string& command) {
+    std::FILE* pipe = popen((command + " 2>&1 </dev/null").c_str(), "r");
+    if (pipe == nullptr) return {-1, "cannot be started"};
+    std::string output;
+    std::array<char, 4096> part;
+    while (const std::size_t count = std::fread(part.data(), 1, part.size(), pipe))
+        output.append(part.data(), count);
+    return {pclose(pipe), output};
+}
+
+std::vector<fs::path> documents() {
+    std::vector<fs::path> files{k_root / "README.md", k_root / "CHANGELOG.md"};
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(k_root / "docs"))
+        if (entry.path().extension() == ".md") files.push_back(entry.path());
+    return files;
+}
+
+std::string first_program() {
+    return blocks_of(text_of(k_root / "README.md"), "cpp").at(0);
+}
+
+/// Lines of README.md's shell blocks that begin with this word, without it.
+std::vector<std::vector<std::string>> commands(const std::string& program) {
+    std::vector<std::vector<std::string>> result;
+    for (const std::string& block : blocks_of(text_of(k_root / "README.md"), "sh")) {
+        for (const std::string& line : lines_of(block)) {
+            std::vector<std::string> words = words_of(line);
+            if (words.empty() || words.front() != program) continue;
+            words.erase(words.begin());
+            result.push_back(words);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+TEST(Readme, first_program_has_at_most_30_lines) {
+    EXPECT_LE(lines_of(first_program()).size(), 30u);
+}
+
+TEST(Readme, first_program_is_the_example) {
+    const std::string example = text_of(k_root / "examples/hello_world.cpp");
+    EXPECT_EQ(example.substr(example.find("#include")), first_program());
+}
+
+TEST(Readme, first_program_prints_what_stands_there) {
+    const Ending ending = run("'" TALUS_README_PROGRAM_FILE "'");
+    EXPECT_EQ(ending.status, 0);
+    EXPECT_EQ(ending.output, blocks_of(text_of(k_root / "README.md"), "text").at(0));
+}
+
+TEST(Readme, commands_of_the_program_exist) {
+    const auto all = commands("./talus");
+    ASSERT_FALSE(all.empty());
+    const std::string launcher = text_of(k_root / "talus");
+    for (const std::vector<std::string>& words : all) {
+        ASSERT_FALSE(words.empty());
+        const std::string& command = words.front();
+        if (command == "test") { // the launcher's own
+            EXPECT_NE(launcher.find("== test ]]"), std::string::npos);
+            continue;
+        }
+        const Ending help = run("'" TALUS_PROGRAM_FILE "' " + command + " --help");
+        EXPECT_EQ(help.status, 0) << command << ": " << help.output;
+        for (std::size_t i = 1; i < words.size(); ++i)
+            if (words[i].starts_with("--"))
+                EXPECT_NE(help.output.find(words[i] + " "), std::string::npos)
+                    << "talus " << command << " has no option " << words[i];
+        const bool has_scene = command == "run" || command == "parity";
+        if (has_scene) EXPECT_NO_THROW(talus::scenes::make_scene(words.at(1))) << words.at(1);
+    }
+}
+
+TEST(Readme, cmake_presets_exist) {
+    const std::string presets = text_of(k_root / "CMakePresets.json");
+    for (const std::string program : {"cmake", "ctest"}) {
+        for (const std::vector<std::string>& words : commands(program)) {
+            const auto preset = std::ranges::find(words, "--preset");
+            if (preset == words.end()) continue;
+            EXPECT_NE(presets.find("\"name\": \"" + *std::next(preset) + "\""), std::string::npos)
+                << *std::next(preset);
+        }
+    }
+}
+
+TEST(Documents, links_lead_to_files) {
+    const std::regex link(R"(\]\(([^)#]+)(#[^)]*)?\))");
+    for (const fs::path& document : documents()) {
+        const std::string text = text_of(document);
+        for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
+            const std::string target = (*found)[1];
+            if (target.find("://") != std::string::npos) continue;
+            EXPECT_TRUE(fs::exists(document.parent_path() / target)) << document << ": no file " << target;
+        }
+    }
+}
+
+TEST(Documents, named_files_exist) {
+    const std::regex path("`((src|include|scenes|render|cli|tests|examples|docs|cmake)/[A-Za-z0-9_./]*)`");
+    for (const fs::path& document : documents()) {
+        const std::string text = text_of(document);
+        for (std::sregex_iterator found(text.begin(), text.end(), path), end; found != end; ++found)
+            EXPECT_TRUE(fs::exists(k_root / (*found)[1].str())) << document << ": no file " << (*found)[1];
+    }
+}
+
+TEST(Documents, architecture_has_the_stages_in_run_order) {
+    const std::vector<std::string> lines = lines_of(text_of(k_root / "docs/architecture.md"));
+    auto place = lines.begin();
+    for (const char* stage : talus::stage_names()) {
+        place = std::find(place, lines.end(), "## " + std::string(stage));
+        EXPECT_NE(place, lines.end()) << "no heading for " << stage << " in its place";
+    }
+}
+
+TEST(Documents, every_kernel_is_in_the_architecture) {
+    const std::string text = text_of(k_root / "docs/architecture.md");
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(k_root / "src")) {
+        const std::string name = entry.path().filename().string();
+        const std::size_t ending = name.find(".comp.glsl");
+        // Scans and sorts are named as such: their kernels belong to no stage.
+        if (ending == std::string::npos || entry.path().parent_path().filename() == "primitives") continue;
+        EXPECT_NE(text.find('`' + name.substr(0, ending)), std::string::npos) << name << " is not mentioned";
+    }
+}
