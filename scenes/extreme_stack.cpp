@@ -22,15 +22,17 @@ void add_flat_pyramid(SceneBuilder& builder, float x, float z, int base) {
                              static_cast<float>(level) + 0.5f, z});
 }
 
-/// Square layers, each one box narrower than the one below.
+/// Square layers, each one box narrower than the one below. The boxes of a layer stand a little apart: what holds the
+/// pyramid is weight, not neighbours.
 void add_square_pyramid(SceneBuilder& builder, float x, float z, int base) {
     for (int level = 0; level < base; ++level) {
         const int side = base - level;
-        const float first = 0.5f - 0.5f * static_cast<float>(side);
+        constexpr float k_pitch = 1.05f;
+        const float first = 0.5f * k_pitch * static_cast<float>(1 - side);
         for (int row = 0; row < side; ++row)
             for (int i = 0; i < side; ++i)
-                builder.add_box({x + first + static_cast<float>(i), static_cast<float>(level) + 0.5f,
-                                 z + first + static_cast<float>(row)});
+                builder.add_box({x + first + k_pitch * static_cast<float>(i), static_cast<float>(level) + 0.5f,
+                                 z + first + k_pitch * static_cast<float>(row)});
     }
 }
 

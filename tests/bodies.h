@@ -12,11 +12,21 @@
 
 namespace talus::tests {
 
-inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3 operator*(Vec3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
-inline float length(Vec3 v) { return std::hypot(v.x, v.y, v.z); }
-inline bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline Vec3 operator+(Vec3 a, Vec3 b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec3 operator-(Vec3 a, Vec3 b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec3 operator*(Vec3 a, float s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+inline float length(Vec3 v) {
+    return std::hypot(v.x, v.y, v.z);
+}
+inline bool is_finite(Vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// A turn by `angle` (rad) about a unit axis.
 inline Quat turn(Vec3 axis, float angle) {
@@ -40,7 +50,9 @@ inline BodyDefinition sphere_at(Vec3 position, float radius = 0.5f) {
 }
 
 /// A wide static box with its upper side at y = 0.
-inline BodyDefinition ground() { return box_at({0.0f, -1.0f, 0.0f}, {100.0f, 2.0f, 100.0f}, BodyKind::Static); }
+inline BodyDefinition ground() {
+    return box_at({0.0f, -1.0f, 0.0f}, {100.0f, 2.0f, 100.0f}, BodyKind::Static);
+}
 
 inline BodyDefinition with_material(BodyDefinition definition, float friction, float restitution = 0.0f) {
     definition.material = {friction, restitution, Combine::Average, Combine::Average};

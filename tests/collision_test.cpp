@@ -246,7 +246,8 @@ TEST(BoxBox, the_same_contact_is_found_from_both_sides) {
         const uint axis = g.axis < 6 ? (g.axis + 3) % 6 : 6 + 3 * ((g.axis - 6) % 3) + (g.axis - 6) / 3;
         if (mirrored.axis != axis) { // two axes may tie to a rounding
             const AxisQuery query = query_axes(sample.pair(), k_axis_none);
-            const AxisQuery other = query_axes(sample.pair(), mirrored.axis < 6 ? (mirrored.axis + 3) % 6 : k_axis_none);
+            const AxisQuery other =
+                query_axes(sample.pair(), mirrored.axis < 6 ? (mirrored.axis + 3) % 6 : k_axis_none);
             ASSERT_NEAR(query.score, other.score, k_axis_persistence + 1e-5f) << i;
             continue;
         }
@@ -299,7 +300,8 @@ TEST(BoxBox, reduction_keeps_the_deepest_of_any_polygon_and_no_more_than_four) {
         polygon.count = 5 + static_cast<uint>(i % 4);
         float lowest = 1e30f;
         for (uint k = 0; k < polygon.count; ++k) {
-            const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(polygon.count);
+            const float angle =
+                2.0f * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(polygon.count);
             const float z = samples.number(-0.01f, 0.01f);
             polygon.points[k] = vec3(std::cos(angle), samples.number(0.5f, 1.0f) * std::sin(angle), z);
             lowest = std::min(lowest, z);
@@ -332,7 +334,8 @@ TEST(BoxBox, a_box_on_a_larger_one_touches_at_its_four_corners) {
 
 TEST(BoxBox, crossed_edges_touch_at_one_point) {
     constexpr float quarter = std::numbers::pi_v<float> / 4.0f, root = std::numbers::sqrt2_v<float>;
-    Sample sample = aligned_boxes(vec3(0.5f, 0.5f, 2.0f), vec3(2.0f, 0.4f, 0.4f), vec3(0.3f, 0.9f * root - 0.01f, -0.4f));
+    Sample sample =
+        aligned_boxes(vec3(0.5f, 0.5f, 2.0f), vec3(2.0f, 0.4f, 0.4f), vec3(0.3f, 0.9f * root - 0.01f, -0.4f));
     sample.pose_a.rotation = turned({0, 0, 1}, quarter); // an edge along z on top
     sample.pose_b.rotation = turned({1, 0, 0}, quarter); // an edge along x below
     const ContactGeometry g = sample.collide();
@@ -399,7 +402,7 @@ TEST(BoxSphere, contacts_have_closed_forms_at_a_face_an_edge_and_a_corner) {
              Case{{-1.4f, 0.2f, 0.1f}, {-1, 0, 0}, 0.4f - 0.5f},
              Case{{1.3f, 0.8f, 0.0f}, {1 / r2, 1 / r2, 0}, 0.3f * r2 - 0.5f},
              Case{{1.2f, -0.7f, 0.45f}, {1 / r3, -1 / r3, 1 / r3}, 0.2f * r3 - 0.5f},
-             Case{{0.1f, 0.45f, 0.0f}, {0, 1, 0}, -0.05f - 0.5f},    // centre inside, nearest to the top
+             Case{{0.1f, 0.45f, 0.0f}, {0, 1, 0}, -0.05f - 0.5f}, // centre inside, nearest to the top
              Case{{0.1f, 0.0f, -0.24f}, {0, 0, -1}, -0.01f - 0.5f},
          }) {
         const ContactGeometry g = collide_box_sphere(axes, half, 0.5f, c.centre, k_margin);

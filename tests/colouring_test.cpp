@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The constraint graph: no two contacts of one colour share a body that can be pushed, the colours are the same on every
-// device, they are kept from step to step, and bodies with more contacts than there are colours are solved all the same.
+// The constraint graph: no two contacts of one colour share a body that can be pushed, the colours are the same on
+// every device, they are kept from step to step, and bodies with more contacts than there are colours are solved all
+// the same.
 #include <map>
 #include <set>
 

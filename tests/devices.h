@@ -15,10 +15,14 @@ namespace talus::tests {
 /// The end of a test's name; CMakeLists.txt tells by it which tests need OpenGL.
 inline std::string name_of(DeviceKind kind) {
     switch (kind) {
-    case DeviceKind::Gpu: return "gpu";
-    case DeviceKind::Cpu: return "cpu";
-    case DeviceKind::Hybrid: return "hybrid";
-    case DeviceKind::Auto: break;
+    case DeviceKind::Gpu:
+        return "gpu";
+    case DeviceKind::Cpu:
+        return "cpu";
+    case DeviceKind::Hybrid:
+        return "hybrid";
+    case DeviceKind::Auto:
+        break;
     }
     return "auto";
 }
@@ -46,7 +50,7 @@ inline const std::string& why_not(DeviceKind kind) {
 
 #define TALUS_SKIP_WITHOUT(kind)                                                                                       \
     if (const std::string& reason = ::talus::tests::why_not(kind); !reason.empty())                                    \
-        GTEST_SKIP() << "NOT TESTED, there is no device '" << ::talus::tests::name_of(kind) << "' here: " << reason
+    GTEST_SKIP() << "NOT TESTED, there is no device '" << ::talus::tests::name_of(kind) << "' here: " << reason
 
 class OnDevice : public testing::TestWithParam<DeviceKind> {
 protected:
@@ -57,8 +61,7 @@ protected:
 };
 
 #define TALUS_ON_EVERY_DEVICE(Suite)                                                                                   \
-    INSTANTIATE_TEST_SUITE_P(Devices, Suite,                                                                           \
-                             testing::Values(DeviceKind::Cpu, DeviceKind::Gpu, DeviceKind::Hybrid),                    \
+    INSTANTIATE_TEST_SUITE_P(Devices, Suite, testing::Values(DeviceKind::Cpu, DeviceKind::Gpu, DeviceKind::Hybrid),    \
                              [](const auto& test) { return ::talus::tests::name_of(test.param); })
 
 /// The message of the Error that a call throws.

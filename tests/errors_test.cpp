@@ -87,13 +87,28 @@ TEST_P(Errors, bodies_that_cannot_be_are_refused) {
     expect_refused({
         bad_body({"position.x", "nan"}, [](D& d) { d.pose.position.x = k_nan; }),
         bad_body({"position.y", "inf"}, [](D& d) { d.pose.position.y = k_infinity; }),
-        bad_body({"position.z", "1e+06"}, [](D& d) { d.pose.position.z = 2.0e6f; }),
-        bad_body({"rotation", "unit quaternion"}, [](D& d) { d.pose.rotation = {0, 0, 0, 0}; }),
-        bad_body({"rotation", "unit quaternion"}, [](D& d) { d.pose.rotation = {0, 0, 0, 2}; }),
+        bad_body({"position.z", "-1000000 to 1000000"}, [](D& d) { d.pose.position.z = 2.0e6f; }),
+        bad_body({"rotation", "unit quaternion"},
+                 [](D& d) {
+                     d.pose.rotation = {0, 0, 0, 0};
+                 }),
+        bad_body({"rotation", "unit quaternion"},
+                 [](D& d) {
+                     d.pose.rotation = {0, 0, 0, 2};
+                 }),
         bad_body({"rotation", "unit quaternion"}, [](D& d) { d.pose.rotation.x = k_nan; }),
-        bad_body({"size.x", "0"}, [](D& d) { d.shape = Box{{0.0f, 1.0f, 1.0f}}; }),
-        bad_body({"size.y", "-1"}, [](D& d) { d.shape = Box{{1.0f, -1.0f, 1.0f}}; }),
-        bad_body({"size.z", "nan"}, [](D& d) { d.shape = Box{{1.0f, 1.0f, k_nan}}; }),
+        bad_body({"size.x", "0"},
+                 [](D& d) {
+                     d.shape = Box{{0.0f, 1.0f, 1.0f}};
+                 }),
+        bad_body({"size.y", "-1"},
+                 [](D& d) {
+                     d.shape = Box{{1.0f, -1.0f, 1.0f}};
+                 }),
+        bad_body({"size.z", "nan"},
+                 [](D& d) {
+                     d.shape = Box{{1.0f, 1.0f, k_nan}};
+                 }),
         bad_body({"radius", "0"}, [](D& d) { d.shape = Sphere{0.0f}; }),
         bad_body({"radius", "inf"}, [](D& d) { d.shape = Sphere{k_infinity}; }),
         bad_body({"mass", "above 0"}, [](D& d) { d.mass = 0.0f; }),
@@ -101,8 +116,14 @@ TEST_P(Errors, bodies_that_cannot_be_are_refused) {
         bad_body({"mass", "nan"}, [](D& d) { d.mass = k_nan; }),
         bad_body({"mass", "inf"}, [](D& d) { d.mass = k_infinity; }),
         bad_body({"density", "above 0"}, [](D& d) { d.density = 0.0f; }),
-        bad_body({"inertia.y", "above 0"}, [](D& d) { d.inertia = Vec3{1.0f, 0.0f, 1.0f}; }),
-        bad_body({"inertia.z", "nan"}, [](D& d) { d.inertia = Vec3{1.0f, 1.0f, k_nan}; }),
+        bad_body({"inertia.y", "above 0"},
+                 [](D& d) {
+                     d.inertia = Vec3{1.0f, 0.0f, 1.0f};
+                 }),
+        bad_body({"inertia.z", "nan"},
+                 [](D& d) {
+                     d.inertia = Vec3{1.0f, 1.0f, k_nan};
+                 }),
         bad_body({"linear velocity.x", "finite"}, [](D& d) { d.velocity.linear.x = k_infinity; }),
         bad_body({"angular velocity.z", "finite"}, [](D& d) { d.velocity.angular.z = k_nan; }),
         bad_body({"gravity_scale", "finite"}, [](D& d) { d.gravity_scale = k_nan; }),
@@ -129,8 +150,9 @@ TEST_P(Errors, a_list_with_one_bad_body_adds_none) {
 
 TEST_P(Errors, ids_that_name_no_body_are_refused_by_every_call) {
     std::vector<Refusal> refusals;
-    for (const auto& [id, why] : {std::pair{gone, "was removed"}, std::pair{BodyId{77, 0}, "is not known"},
-                                  std::pair{BodyId{}, "is not known"}, std::pair{BodyId{box.index, 5}, "generation 5"}}) {
+    for (const auto& [id, why] :
+         {std::pair{gone, "was removed"}, std::pair{BodyId{77, 0}, "is not known"}, std::pair{BodyId{}, "is not known"},
+          std::pair{BodyId{box.index, 5}, "generation 5"}}) {
         const auto refuse = [&](const char* call, const std::function<void(BodyId)>& use) {
             refusals.push_back({{call, "body " + std::to_string(id.index), why}, [use, bad = id] { use(bad); }});
         };
@@ -160,12 +182,27 @@ TEST_P(Errors, ids_that_name_no_body_are_refused_by_every_call) {
 TEST_P(Errors, values_that_are_no_numbers_are_refused_by_every_call) {
     const Vec3 bad{0.0f, k_nan, 0.0f}, good{0.0f, 1.0f, 0.0f};
     expect_refused({
-        {{"set_pose", "body 1", "position.y"}, [=, this] { world->set_pose(box, {bad, {}}); }},
-        {{"set_pose", "body 1", "rotation"}, [=, this] { world->set_pose(box, {{}, {0, 0, 0, 0}}); }},
-        {{"set_velocity", "body 1", "linear velocity.y"}, [=, this] { world->set_velocity(box, {bad, {}}); }},
-        {{"set_velocity", "body 1", "angular velocity.y"}, [=, this] { world->set_velocity(box, {{}, bad}); }},
+        {{"set_pose", "body 1", "position.y"},
+         [=, this] {
+             world->set_pose(box, {bad, {}});
+         }},
+        {{"set_pose", "body 1", "rotation"},
+         [=, this] {
+             world->set_pose(box, {{}, {0, 0, 0, 0}});
+         }},
+        {{"set_velocity", "body 1", "linear velocity.y"},
+         [=, this] {
+             world->set_velocity(box, {bad, {}});
+         }},
+        {{"set_velocity", "body 1", "angular velocity.y"},
+         [=, this] {
+             world->set_velocity(box, {{}, bad});
+         }},
         {{"add_force", "body 1", "force.y"}, [=, this] { world->add_force(box, bad); }},
-        {{"add_force", "body 1", "1e+12"}, [=, this] { world->add_force(box, {2.0e12f, 0.0f, 0.0f}); }},
+        {{"add_force", "body 1", "1000000000000"},
+         [=, this] {
+             world->add_force(box, {2.0e12f, 0.0f, 0.0f});
+         }},
         {{"add_force", "body 1", "point.y"}, [=, this] { world->add_force(box, good, bad); }},
         {{"add_force", "body 1", "force.y"}, [=, this] { world->add_force(box, bad, good); }},
         {{"add_torque", "body 1", "torque.y"}, [=, this] { world->add_torque(box, bad); }},
@@ -173,14 +210,21 @@ TEST_P(Errors, values_that_are_no_numbers_are_refused_by_every_call) {
         {{"add_impulse", "body 1", "point.y"}, [=, this] { world->add_impulse(box, good, bad); }},
         {{"add_angular_impulse", "body 1", "impulse.y"}, [=, this] { world->add_angular_impulse(box, bad); }},
         {{"set_gravity_scale", "body 1", "inf"}, [=, this] { world->set_gravity_scale(box, k_infinity); }},
-        {{"set_material", "body 1", "friction"}, [=, this] { world->set_material(box, {k_nan, 0.0f}); }},
-        {{"set_material", "body 1", "restitution"}, [=, this] { world->set_material(box, {0.5f, -1.0f}); }},
+        {{"set_material", "body 1", "friction"},
+         [=, this] {
+             world->set_material(box, {k_nan, 0.0f});
+         }},
+        {{"set_material", "body 1", "restitution"},
+         [=, this] {
+             world->set_material(box, {0.5f, -1.0f});
+         }},
     });
 }
 
 TEST_P(Errors, bodies_that_forces_cannot_move_refuse_them) {
     const Vec3 push{1.0f, 0.0f, 0.0f};
-    std::vector<Refusal> refusals{{{"set_velocity", "body 0", "static"}, [=, this] { world->set_velocity(floor, {}); }}};
+    std::vector<Refusal> refusals{
+        {{"set_velocity", "body 0", "static"}, [=, this] { world->set_velocity(floor, {}); }}};
     for (const auto& [id, kind] : {std::pair{floor, "static"}, std::pair{platform, "kinematic"}}) {
         const std::string body = "body " + std::to_string(id.index);
         refusals.push_back({{"add_force", body, kind}, [=, this, bad = id] { world->add_force(bad, push); }});

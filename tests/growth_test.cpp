@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Buffers that start too small: nothing is dropped, growth is reported, and the bits are those of a world which had room
-// from the start.
+// Buffers that start too small: nothing is dropped, growth is reported, and the bits are those of a world which had
+// room from the start.
 #include <gtest/gtest.h>
 
 #include "tests/bodies.h"

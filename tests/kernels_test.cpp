@@ -201,8 +201,7 @@ GLint property_of(GLuint program, GLenum interface, const std::string& name, GLe
     const GLuint index = glGetProgramResourceIndex(program, interface, name.c_str());
     EXPECT_NE(index, GL_INVALID_INDEX) << name << " is not in the program";
     GLint value = -1;
-    if (index != GL_INVALID_INDEX)
-        glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &value);
+    if (index != GL_INVALID_INDEX) glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &value);
     return value;
 }
 
@@ -220,12 +219,15 @@ TEST_P(GlKernels, find_each_member_where_cpp_has_it) {
         const bool uniform = name == "Parameters";
         const GLenum interface = uniform ? GL_UNIFORM : GL_BUFFER_VARIABLE;
         const std::string first = record.front().name, prefix = uniform ? "Block.record." : "records[0].";
-        const GLuint program = link(
-            uniform ? head + "layout(std140) uniform Block { Parameters record; } block;\n"
-                             "layout(std430) buffer Target { vec3 target; };\n"
-                             "void main() { target = block.record." + first + "; }\n"
-                    : head + "layout(std430) buffer Block { " + name + " records[]; };\n"
-                             "void main() { records[0]." + first + " = records[1]." + first + "; }\n");
+        const GLuint program = link(uniform ? head +
+                                                  "layout(std140) uniform Block { Parameters record; } block;\n"
+                                                  "layout(std430) buffer Target { vec3 target; };\n"
+                                                  "void main() { target = block.record." +
+                                                  first + "; }\n"
+                                            : head + "layout(std430) buffer Block { " + name +
+                                                  " records[]; };\n"
+                                                  "void main() { records[0]." +
+                                                  first + " = records[1]." + first + "; }\n");
         std::size_t offset = 0;
         for (const Member& member : record) {
             const std::string path = prefix + member.name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs the tests of one executable. A run that had to leave tests out ends with its own exit status, so that ctest lists
-// it as skipped and never as passed.
+// Runs the tests of one executable. A run that had to leave tests out ends with its own exit status, so that ctest
+// lists it as skipped and never as passed.
 #include <iostream>
 
 #include <gtest/gtest.h>

@@ -47,9 +47,13 @@ private:
     std::mt19937 random{12345};
 };
 
-glm::dmat3 matrix_of(vec4 q) { return glm::mat3_cast(glm::dquat(q.w, q.x, q.y, q.z)); }
+glm::dmat3 matrix_of(vec4 q) {
+    return glm::mat3_cast(glm::dquat(q.w, q.x, q.y, q.z));
+}
 
-double distance(glm::dvec3 a, glm::dvec3 b) { return glm::length(a - b); }
+double distance(glm::dvec3 a, glm::dvec3 b) {
+    return glm::length(a - b);
+}
 
 // ---- numbers ----
 
@@ -96,7 +100,8 @@ TEST(Math, square_root_of_nothing_is_nothing) {
 
 TEST(Math, finite_numbers_are_told_from_the_others) {
     using Limits = std::numeric_limits<float>;
-    for (const float x : {0.0f, -0.0f, 1.0f, -1.0f, Limits::max(), Limits::lowest(), Limits::min(), Limits::denorm_min()})
+    for (const float x :
+         {0.0f, -0.0f, 1.0f, -1.0f, Limits::max(), Limits::lowest(), Limits::min(), Limits::denorm_min()})
         EXPECT_TRUE(is_finite(x)) << x;
     for (const float x : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), -Limits::quiet_NaN()}) {
         EXPECT_FALSE(is_finite(x)) << x;
@@ -275,6 +280,26 @@ TEST(Math, friction_stays_in_a_round_cone) {
     }
 }
 
+TEST(Math, friction_points_against_the_sliding) {
+    // However different the masses along the two tangents are, as they are at a box's corners.
+    Samples samples;
+    for (int i = 0; i < 1'000; ++i) {
+        ContactConstraintPoint point{};
+        point.normal_impulse = 1.0f;
+        point.tangent_mass_1 = samples.number(0.5f, 4.0f);
+        point.tangent_mass_2 = samples.number(0.5f, 4.0f);
+        const float angle = samples.number(-3.14f, 3.14f);
+        const vec2 sliding(std::cos(angle), std::sin(angle));
+        vec2 impulse(0.0f);
+        for (int pass = 0; pass < 50; ++pass) {
+            impulse = solve_friction_rows(point, sliding.x, sliding.y, 0.3f);
+            point.tangent_impulse_1 = impulse.x;
+            point.tangent_impulse_2 = impulse.y;
+        }
+        ASSERT_NEAR(glm::dot(impulse, sliding), -0.3f, 1e-5f);
+    }
+}
+
 TEST(Math, materials_combine_by_the_rule_that_is_listed_first) {
     EXPECT_EQ(combine(0.2f, 0.6f, k_combine_average, k_combine_multiply), 0.4f);
     EXPECT_EQ(combine(0.2f, 0.6f, k_combine_maximum, k_combine_minimum), 0.2f);
@@ -317,7 +342,8 @@ TEST(Math, when_all_colours_are_used_there_is_the_overflow_set) {
 
 TEST(Math, launches_cover_their_items_within_the_limits_of_a_dimension) {
     for (const uint group_size : {1u, 64u, 1024u}) {
-        for (const uint items : {0u, 1u, 63u, 64u, 65u, 65'535u, 65'536u, 65'535u * 64u, 65'535u * 64u + 1u, 50'000'000u}) {
+        for (const uint items :
+             {0u, 1u, 63u, 64u, 65u, 65'535u, 65'536u, 65'535u * 64u, 65'535u * 64u + 1u, 50'000'000u}) {
             const Dispatch d = groups_for(items, group_size);
             const std::uint64_t groups = std::uint64_t{d.groups_x} * d.groups_y * d.groups_z;
             SCOPED_TRACE(testing::Message() << items << " in groups of " << group_size);

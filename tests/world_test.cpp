@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The public calls of a world, on every device: bodies come and go, what is set can be read, forces do what they say, and
-// results describe the last step.
+// The public calls of a world, on every device: bodies come and go, what is set can be read, forces do what they say,
+// and results describe the last step.
 #include <limits>
 #include <set>
 #include <thread>
@@ -484,7 +484,7 @@ TEST_P(Worlds, name_their_gl_buffers_or_say_that_there_are_none) {
         return;
     }
     const GlBuffers names = world.gl_buffers();
-    std::set<std::uint32_t> different{names.poses, names.shapes,         names.aabbs,   names.pairs,
+    std::set<std::uint32_t> different{names.poses,     names.shapes,         names.aabbs,   names.pairs,
                                       names.manifolds, names.contact_points, names.counters};
     EXPECT_EQ(different.size(), 7u);
     EXPECT_FALSE(different.contains(0));

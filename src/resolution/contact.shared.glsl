@@ -99,14 +99,22 @@ inline float solve_normal_row(ContactConstraintPoint point, float normal_velocit
     return impulse;
 }
 
-// New accumulated friction impulses, held inside the cone: a circle of radius mu times the normal impulse.
+// New accumulated friction impulses, held inside the cone: a circle of radius mu times the normal impulse. A point that
+// slides takes the smaller mass for both directions. With a mass for each, what is left on the rim of the cone does not
+// point against the sliding: a box lost 8 % of its friction on a slope of 35 degrees, and drifted to the side.
 inline vec2 solve_friction_rows(ContactConstraintPoint point, float velocity_1, float velocity_2, float friction)
 {
-    precise float impulse_1 = point.tangent_impulse_1 - point.tangent_mass_1 * velocity_1;
-    precise float impulse_2 = point.tangent_impulse_2 - point.tangent_mass_2 * velocity_2;
     precise float limit = friction * point.normal_impulse;
-    precise float square = impulse_1 * impulse_1 + impulse_2 * impulse_2;
     precise float square_limit = limit * limit;
+    precise float stuck_1 = point.tangent_impulse_1 - point.tangent_mass_1 * velocity_1;
+    precise float stuck_2 = point.tangent_impulse_2 - point.tangent_mass_2 * velocity_2;
+    precise float stuck_square = stuck_1 * stuck_1 + stuck_2 * stuck_2;
+    if (stuck_square <= square_limit) return vec2(stuck_1, stuck_2);
+
+    float mass = min(point.tangent_mass_1, point.tangent_mass_2);
+    precise float impulse_1 = point.tangent_impulse_1 - mass * velocity_1;
+    precise float impulse_2 = point.tangent_impulse_2 - mass * velocity_2;
+    precise float square = impulse_1 * impulse_1 + impulse_2 * impulse_2;
     if (square <= square_limit) return vec2(impulse_1, impulse_2);
     precise float scale = limit * inverse_sqrt(square);
     precise float held_1 = impulse_1 * scale;
