@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The thesis's "extreme stacking" (figure 5.3): tall stacks and structures side by side, all standing exactly from the
 // start. Each structure is a function of where its middle stands on the ground.
+#include <algorithm>
+#include <cstdlib>
+
 #include "scenes/builders.h"
 #include "scenes/camera.h"
 #include "scenes/scene_builder.h"
@@ -83,14 +86,14 @@ void add_bridge(SceneBuilder& builder, float x, float z, int spans, int storeys,
 
 } // namespace
 
-Scene make_extreme_stack(const Parameters&) {
+Scene make_extreme_stack(const Parameters& parameters) {
     SceneBuilder builder(60.0f, 40.0f, 700);
 
-    constexpr int k_heights[] = {10, 12, 14, 16, 18, 20, 20, 18, 16, 14, 12, 10};
-    float x = -22.0f;
-    for (const int height : k_heights) {
-        add_stack(builder, x, -9.0f, height);
-        x += 4.0f;
+    constexpr int k_stacks = 12;
+    const int tallest = static_cast<int>(parameters.integer("height"));
+    for (int i = 0; i < k_stacks; ++i) {
+        const int from_middle = (std::abs(2 * i - (k_stacks - 1)) - 1) / 2;
+        add_stack(builder, 4.0f * static_cast<float>(i) - 22.0f, -9.0f, tallest - from_middle);
     }
     add_flat_pyramid(builder, 10.0f, -4.0f, 15);
     add_brick_wall(builder, -12.0f, -4.0f, 8, 12);
@@ -99,7 +102,8 @@ Scene make_extreme_stack(const Parameters&) {
     add_log_tower(builder, 16.0f, 1.0f, 10);
     add_square_pyramid(builder, 10.0f, 4.0f, 6);
 
-    return builder.finish(builder.bounds(), frame({{-23.0f, 0.0f, -9.5f}, {23.0f, 20.0f, 7.0f}}, {0.25f, 0.3f, 1.0f}));
+    const float top = static_cast<float>(std::max(tallest, 15));
+    return builder.finish(builder.bounds(), frame({{-23.0f, 0.0f, -9.5f}, {23.0f, top, 7.0f}}, {0.25f, 0.3f, 1.0f}));
 }
 
 } // namespace talus::scenes

@@ -12,6 +12,7 @@ constexpr float k_largest_coordinate = 1.0e6f; // m: beyond it floats are coarse
 constexpr float k_largest_size = 1.0e5f;       // m
 constexpr float k_smallest_size = 1.0e-4f;     // m
 constexpr float k_largest_value = 1.0e12f;     // forces, masses, inertia: their squares still fit a float
+constexpr float k_smallest_value = 1.0e-30f;   // masses, inertia: their inverses still fit a float
 
 [[noreturn]] void refuse(const std::string& where, const std::string& message) { throw Error(where + ": " + message); }
 
@@ -22,9 +23,7 @@ void check_range(float value, float lowest, float highest, const std::string& wh
 }
 
 void check_positive(float value, const std::string& where, const char* what, const char* unit) {
-    if (value > 0.0f && value <= k_largest_value) return;
-    refuse(where, fmt::format("{} is {}{}; it must be above 0 and at most {}{}", what, value, unit, k_largest_value,
-                              unit));
+    check_range(value, k_smallest_value, k_largest_value, where, what, unit);
 }
 
 void check_size(float value, const std::string& where, const char* what) {

@@ -79,4 +79,21 @@ inline std::vector<BodyDefinition> plate_of(std::uint32_t side) {
     return bodies;
 }
 
+/// Boxes and spheres that spin, bounce, slide and are damped, and a kinematic box that runs into them.
+inline std::vector<BodyDefinition> mixed_bodies() {
+    std::vector<BodyDefinition> bodies{with_material(ground(), 0.4f, 0.5f)};
+    for (int i = 0; i < 40; ++i) {
+        const float x = static_cast<float>(i % 5), z = 0.3f * static_cast<float>(i % 3);
+        const Vec3 position{x, 1.0f + 1.1f * static_cast<float>(i / 5), z};
+        BodyDefinition body = i % 3 == 0 ? sphere_at(position, 0.4f) : box_at(position, {0.9f, 0.5f, 0.7f});
+        body = with_material(body, 0.1f * static_cast<float>(i % 7), 0.2f * static_cast<float>(i % 4));
+        body.velocity = {{0.0f, -3.0f, 1.0f}, {1.0f, 5.0f, -2.0f}};
+        body.linear_damping = 0.1f;
+        bodies.push_back(body);
+    }
+    bodies.push_back(box_at({6.0f, 0.5f, 0.0f}, {1.0f, 1.0f, 4.0f}, BodyKind::Kinematic));
+    bodies.back().velocity.linear = {-1.0f, 0.0f, 0.0f};
+    return bodies;
+}
+
 } // namespace talus::tests

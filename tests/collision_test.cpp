@@ -385,6 +385,13 @@ TEST(BoxBox, features_keep_their_names_under_small_motion) {
         ASSERT_EQ(features, first) << i;
     }
     EXPECT_EQ(std::set<uint>(first.begin(), first.end()).size(), 4u) << "each point has a name of its own";
+
+    // The corners of another face are other features.
+    sample.pose_b.rotation = turned({1, 0, 0}, 0.5f * std::numbers::pi_v<float>);
+    const ContactGeometry rolled = sample.collide();
+    ASSERT_EQ(rolled.count, 4u);
+    for (uint k = 0; k < 4; ++k)
+        EXPECT_EQ(std::ranges::count(first, rolled.features[k]), 0) << k;
 }
 
 // ---- spheres ----

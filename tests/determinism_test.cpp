@@ -41,6 +41,15 @@ TEST_P(Determinism, the_state_is_that_of_one_cpu_thread) {
         EXPECT_EQ(hash_of(options_on(GetParam()), c), hash_on_one_thread(c)) << c.scene;
 }
 
+TEST_P(Determinism, spheres_spin_and_bounces_end_in_the_same_bits) {
+    World world = make_world(), expected({}, options_on(DeviceKind::Cpu));
+    for (World* each : {&world, &expected}) {
+        each->add(mixed_bodies());
+        each->step(60);
+    }
+    EXPECT_EQ(world.state_hash(), expected.state_hash());
+}
+
 TEST_P(Determinism, two_runs_end_in_the_same_bits) {
     const Case c{"pool:boxes=70", 60};
     EXPECT_EQ(hash_of(options_on(GetParam()), c), hash_of(options_on(GetParam()), c));
@@ -73,8 +82,9 @@ TEST_P(Determinism, baumgarte_and_brute_force_are_repeatable_too) {
     EXPECT_EQ(hash_of(options_on(GetParam()), c, settings), hash_of(options_on(DeviceKind::Cpu), c, settings));
 }
 
-TEST_P(Determinism, one_work_group_gives_the_bits_of_many_launches) {
-    if (GetParam() == DeviceKind::Hybrid) return; // its resolution is the CPU's
+class Paths : public OnDevice {};
+
+TEST_P(Paths, a_work_group_for_each_island_gives_the_bits_of_many_launches) {
     std::vector<BodyDefinition> bodies = bodies_of("pool:boxes=60");
     for (BodyDefinition& body : bodies)
         body.material.restitution = 0.3f;
@@ -89,7 +99,23 @@ TEST_P(Determinism, one_work_group_gives_the_bits_of_many_launches) {
     EXPECT_GT(small.counter(engine::k_counter_contact_count), 50u) << "the scene must have contacts by now";
 }
 
+TEST_P(Paths, a_kinematic_body_may_belong_to_several_islands) {
+    std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.25f, 0.0f}, {9.0f, 0.5f, 2.0f}, BodyKind::Kinematic)};
+    bodies.back().velocity = {{0.5f, 0.0f, 0.0f}, {0.0f, 0.3f, 0.0f}};
+    for (int i = 0; i < 12; ++i)
+        bodies.push_back(box_at({2.0f * static_cast<float>(i % 4) - 3.0f, 1.0f + static_cast<float>(i / 4), 0.0f}));
+    EngineRun small(options_on(GetParam()), bodies), large(options_on(GetParam()), bodies);
+    for (int i = 0; i < 40; ++i) {
+        small.step();
+        large.step_in_many_launches();
+        ASSERT_TRUE(small.motion() == large.motion()) << "step " << i;
+    }
+}
+
 TALUS_ON_EVERY_DEVICE(Determinism);
+// A hybrid world's resolution is that of the CPU.
+INSTANTIATE_TEST_SUITE_P(Devices, Paths, testing::Values(DeviceKind::Cpu, DeviceKind::Gpu),
+                         [](const auto& test) { return name_of(test.param); });
 
 TEST(Threads, any_number_ends_in_the_same_bits) {
     for (const Case& c : k_cases) {

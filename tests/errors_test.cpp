@@ -111,12 +111,13 @@ TEST_P(Errors, bodies_that_cannot_be_are_refused) {
                  }),
         bad_body({"radius", "0"}, [](D& d) { d.shape = Sphere{0.0f}; }),
         bad_body({"radius", "inf"}, [](D& d) { d.shape = Sphere{k_infinity}; }),
-        bad_body({"mass", "above 0"}, [](D& d) { d.mass = 0.0f; }),
-        bad_body({"mass", "above 0"}, [](D& d) { d.mass = -3.0f; }),
+        bad_body({"mass", "allowed is 1e-30"}, [](D& d) { d.mass = 0.0f; }),
+        bad_body({"mass", "allowed is 1e-30"}, [](D& d) { d.mass = -3.0f; }),
         bad_body({"mass", "nan"}, [](D& d) { d.mass = k_nan; }),
         bad_body({"mass", "inf"}, [](D& d) { d.mass = k_infinity; }),
-        bad_body({"density", "above 0"}, [](D& d) { d.density = 0.0f; }),
-        bad_body({"inertia.y", "above 0"},
+        bad_body({"mass", "allowed is 1e-30"}, [](D& d) { d.mass = 1.0e-39f; }), // its inverse is infinite
+        bad_body({"density", "allowed is 1e-30"}, [](D& d) { d.density = 0.0f; }),
+        bad_body({"inertia.y", "allowed is 1e-30"},
                  [](D& d) {
                      d.inertia = Vec3{1.0f, 0.0f, 1.0f};
                  }),

@@ -55,18 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Parity,
 
 TEST(ParityOfMixedBodies, holds_for_spheres_spin_bounces_and_the_other_settings) {
     TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
-    std::vector<BodyDefinition> bodies{with_material(ground(), 0.4f, 0.5f)};
-    for (int i = 0; i < 40; ++i) {
-        const Vec3 position{static_cast<float>(i % 5), 1.0f + 1.1f * static_cast<float>(i / 5),
-                            0.3f * static_cast<float>(i % 3)};
-        BodyDefinition body = i % 3 == 0 ? sphere_at(position, 0.4f) : box_at(position, {0.9f, 0.5f, 0.7f});
-        body = with_material(body, 0.1f * static_cast<float>(i % 7), 0.2f * static_cast<float>(i % 4));
-        body.velocity = {{0.0f, -3.0f, 1.0f}, {1.0f, 5.0f, -2.0f}};
-        body.linear_damping = 0.1f;
-        bodies.push_back(body);
-    }
-    bodies.push_back(box_at({6.0f, 0.5f, 0.0f}, {1.0f, 1.0f, 4.0f}, BodyKind::Kinematic));
-    bodies.back().velocity.linear = {-1.0f, 0.0f, 0.0f};
+    const std::vector<BodyDefinition> bodies = mixed_bodies();
     Settings settings;
     expect_parity(engine::compare_devices(bodies, settings, 40));
     settings.stabilisation = Stabilisation::Baumgarte;

@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "state/formulas.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
+#include "tests/engine_run.h"
 
 namespace talus::tests {
 namespace {
@@ -449,6 +451,20 @@ TEST_P(Worlds, a_non_finite_body_is_frozen_and_harms_nobody) {
     world.step(30);
     EXPECT_LT(world.pose(wild).position.y, 4.5f);
     EXPECT_EQ(world.report().frozen_bodies, 1u);
+}
+
+TEST_P(Worlds, a_body_without_a_place_is_frozen_and_harms_nobody) {
+    // No public call lets such a pose in, so it is written behind the world's back.
+    EngineRun run(options_on(GetParam()), bodies_of("stack:height=3"));
+    engine::BodyPose lost = run.table.poses[2];
+    lost.position.x = std::numeric_limits<float>::quiet_NaN();
+    run.simulation.write(engine::BufferId::Poses, 2, std::span<const engine::BodyPose>(&lost, 1));
+    run.step(30);
+    EXPECT_EQ(run.counter(engine::k_counter_frozen_bodies), 1u);
+    const auto poses = run.read<engine::BodyPose>(engine::BufferId::Poses, 4);
+    EXPECT_EQ(poses[2].flags, engine::k_body_frozen);
+    EXPECT_NEAR(poses[1].position.y, 0.5f, 2e-3f);
+    EXPECT_TRUE(engine::is_finite3(poses[3].position));
 }
 
 TEST_P(Worlds, speed_is_held_to_its_limits) {
