@@ -23,6 +23,7 @@ constexpr uint k_colour_window = 64;
 constexpr std::array k_body_buffers{
     BufferId::Poses,      BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
     BufferId::Aabbs,      BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
+    BufferId::SortedAabbs,
     BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,
 };
 

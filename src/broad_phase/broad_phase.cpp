@@ -17,6 +17,7 @@ static void sort_along_widest_axis(Device& device, uint body_count) {
                          .values_swap = BufferId::SortValuesSwap,
                          .capacity = body_count,
                          .count_counter = k_counter_body_count});
+    device.run({.kernel = gather_aabbs, .items = body_count});
 }
 
 void broad_phase(Device& device, const StepPlan& plan) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body in sorted order: sweeps the bodies after it until their boxes begin beyond its own end, and
 // then all large ones (thesis, algorithm 2). Run twice: args.x = 0 counts, 1 writes at the scanned offsets.
-// Reads: Aabbs, SweepAxes, SortKeys, SortValues.
+// Reads: SortedAabbs, SweepAxes, SortKeys, SortValues.
 // Writes: PairCounts (counting) or Pairs (writing), in the order of the sort.
-// Needs: a barrier after the sort; for writing, after the scan of the counts.
+// Needs: a barrier after gather_aabbs; for writing, after the scan of the counts.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
@@ -11,21 +11,21 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
 layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) readonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
 layout(std430) writeonly buffer Pairs { Pair pairs[]; };
 
-// Where the large boxes begin in the order of the sort.
-uint first_large_place()
+// How many places have a lower key.
+uint count_below(uint key)
 {
     uint lower = 0u;
     uint upper = parameters.body_count;
     while (lower < upper) {
         uint middle = (lower + upper) / 2u;
-        if (sort_keys[middle] < k_large_key)
+        if (sort_keys[middle] < key)
             lower = middle + 1u;
         else
             upper = middle;
@@ -41,22 +41,22 @@ void main()
     uint offset = writing ? pair_counts[place] : 0u;
     uint found = 0u;
     uint body = sort_values[place];
-    Aabb box = aabbs[body];
+    Aabb box = sorted_aabbs[place];
     uint axis = sweep_axes[0].axis;
-    uint first_large = first_large_place();
+    uint first_large = count_below(k_large_key);
     // The sweep ends at the first box beyond this one's end, and goes on with the large boxes.
     bool sweeping = place < first_large;
     uint i = place + 1u;
-    while (i < parameters.body_count && sort_keys[i] != k_absent_key) {
-        uint other = sort_values[i];
-        Aabb other_box = aabbs[other];
+    uint end = count_below(k_absent_key);
+    while (i < end) {
+        Aabb other_box = sorted_aabbs[i];
         if (sweeping && (i >= first_large || component(other_box.lower, axis) > component(box.upper, axis))) {
             sweeping = false;
             i = first_large;
             continue;
         }
         if (is_candidate(box, other_box)) {
-            if (writing && offset + found < parameters.pair_capacity) pairs[offset + found] = make_pair(body, other);
+            if (writing && offset + found < parameters.pair_capacity) pairs[offset + found] = make_pair(body, sort_values[i]);
             found += 1u;
         }
         i += 1u;

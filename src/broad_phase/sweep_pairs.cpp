@@ -18,22 +18,21 @@ static void sweep_pairs_on_cpu(CpuState& state, const Launch& launch) {
 
     const auto sweep = [&](uint place) {
         const uint body = state.sort_values[place];
-        const Aabb box = state.aabbs[body];
+        const Aabb box = state.sorted_aabbs[place];
         const uint offset = writing ? state.pair_counts[place] : 0;
         uint found = 0;
         const auto test = [&](uint other) {
-            if (!is_candidate(box, state.aabbs[other])) return;
+            if (!is_candidate(box, state.sorted_aabbs[other])) return;
             if (writing && offset + found < state.parameters.pair_capacity)
-                state.pairs[offset + found] = make_pair(body, other);
+                state.pairs[offset + found] = make_pair(body, state.sort_values[other]);
             ++found;
         };
         for (uint i = place + 1; i < first_large; ++i) {
-            const uint other = state.sort_values[i];
-            if (component(state.aabbs[other].lower, axis) > component(box.upper, axis)) break;
-            test(other);
+            if (component(state.sorted_aabbs[i].lower, axis) > component(box.upper, axis)) break;
+            test(i);
         }
         for (uint i = std::max(first_large, place + 1); i < last; ++i)
-            test(state.sort_values[i]);
+            test(i);
         if (!writing) state.pair_counts[place] = found;
     };
     state.parallel(body_count, sweep);

@@ -49,11 +49,29 @@ inline vec3 point_impulse(ContactConstraintPoint point, vec3 n, Tangents t)
     return impulse;
 }
 
-// Separation now: what it was, and how far the anchors have moved since along the normal (equation 3.16).
-inline float current_separation(ContactConstraintPoint point, vec3 n, BodyDelta a, BodyDelta b)
+// What a manifold's points share of their present separation.
+struct Approach {
+    float distance; // m: how far the bodies' centres have come apart along the normal since the start of the step
+    vec3 normal_a;  // the normal as seen by A before it turned
+    vec3 normal_b;
+};
+
+inline Approach measure_approach(vec3 n, BodyDelta a, BodyDelta b)
 {
-    precise vec3 moved = b.position + rotate(b.rotation, point.anchor_b) - a.position - rotate(a.rotation, point.anchor_a);
-    precise float separation = point.base_separation + dot3(moved, n);
+    precise vec3 moved = b.position - a.position;
+    Approach approach;
+    approach.distance = dot3(moved, n);
+    approach.normal_a = rotate_back(a.rotation, n);
+    approach.normal_b = rotate_back(b.rotation, n);
+    return approach;
+}
+
+// Separation now: what it was, and how far the anchors have moved since along the normal (equation 3.16). To turn the
+// normal back once is cheaper than to turn every anchor.
+inline float current_separation(ContactConstraintPoint point, Approach approach)
+{
+    precise float separation = point.base_separation + approach.distance + dot3(point.anchor_b, approach.normal_b) -
+                               dot3(point.anchor_a, approach.normal_a);
     return separation;
 }
 

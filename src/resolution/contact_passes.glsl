@@ -33,6 +33,7 @@ void pass_over_constraint(uint pass, uint index)
         delta_a = deltas[c.body_a];
         delta_b = deltas[c.body_b];
     }
+    Approach approach = measure_approach(c.normal, delta_a, delta_b);
     for (uint i = 4u * index; i < 4u * index + c.point_count; ++i) {
         s.point = constraint_points[i];
         if (pass == k_warm_start) {
@@ -43,7 +44,7 @@ void pass_over_constraint(uint pass, uint index)
         if (pass == k_restitution) {
             s = apply_point_restitution(s, c.normal, c.restitution, inertia_a, inertia_b, parameters);
         } else {
-            float separation = current_separation(s.point, c.normal, delta_a, delta_b);
+            float separation = current_separation(s.point, approach);
             s = solve_point(s, c.normal, t, c.friction, separation, pass == k_solve, soft, inertia_a, inertia_b,
                             parameters);
         }

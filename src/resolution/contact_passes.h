@@ -19,8 +19,7 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint index) 
     if (pass == ContactPass::Restitution && c.restitution == 0.0f) return;
     const BodyInertia& inertia_a = state.inertias[c.body_a];
     const BodyInertia& inertia_b = state.inertias[c.body_b];
-    const BodyDelta& delta_a = state.deltas[c.body_a];
-    const BodyDelta& delta_b = state.deltas[c.body_b];
+    const Approach approach = measure_approach(c.normal, state.deltas[c.body_a], state.deltas[c.body_b]);
     const Tangents t = contact_tangents(c.normal);
     const Softness soft = contact_softness(c.against_static == 1, state.parameters);
     PointState s;
@@ -36,7 +35,7 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint index) 
         if (pass == ContactPass::Restitution) {
             s = apply_point_restitution(s, c.normal, c.restitution, inertia_a, inertia_b, state.parameters);
         } else {
-            const float separation = current_separation(point, c.normal, delta_a, delta_b);
+            const float separation = current_separation(point, approach);
             s = solve_point(s, c.normal, t, c.friction, separation, pass == ContactPass::Solve, soft, inertia_a,
                             inertia_b, state.parameters);
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One invocation: whether the colours fit, and the launches of the resolution. args.x: 1 where the world is solved
+// One group, an invocation for each colour: whether the colours fit, and the launches of the resolution. args.x: 1 where the world is solved
 // island by island, so that colours need no launches.
 // Reads: ColourOffsets, Counters.
 // Writes: Counters, Dispatches.
@@ -8,7 +8,7 @@
 // step or an earlier one, all launches are empty.
 #include "state/dispatch.shared.glsl"
 
-layout(local_size_x = 1) in;
+layout(local_size_x = 64) in; // k_max_colours
 
 layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
@@ -16,20 +16,22 @@ layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 
 void main()
 {
+    uint colour = gl_LocalInvocationID.x;
     bool by_island = args.x == 1u;
     uint overflow_count = counters[k_counter_overflow_count];
+    uint did_not_fit = counters[k_counter_did_not_fit];
     if (!by_island && (counters[k_counter_colour_demand] > parameters.colour_capacity ||
                        (overflow_count > 0u && parameters.overflow_capacity == 0u)))
-        counters[k_counter_did_not_fit] |= k_fit_colours;
+        did_not_fit |= k_fit_colours;
 
-    uint on = counters[k_counter_did_not_fit] == 0u ? 1u : 0u;
+    uint on = did_not_fit == 0u ? 1u : 0u;
+    uint count = by_island ? 0u : colour_offsets[colour + 1u] - colour_offsets[colour];
+    dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
+    if (colour != 0u) return;
     dispatches[k_dispatch_once] = groups_for(on, 1u);
     dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);
     dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
     dispatches[k_dispatch_islands] = groups_for(on * parameters.body_count, 1u);
-    for (uint colour = 0u; colour < k_max_colours; ++colour) {
-        uint count = by_island ? 0u : colour_offsets[colour + 1u] - colour_offsets[colour];
-        dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
-    }
     dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1u);
+    counters[k_counter_did_not_fit] = did_not_fit;
 }

@@ -34,6 +34,7 @@ namespace talus::engine {
     X(SortKeysSwap, sort_keys_swap, uint, "u", Scratch)                                                                \
     X(SortValuesSwap, sort_values_swap, uint, "u", Scratch)                                                            \
     X(DigitCounts, digit_counts, uint, "u", Scratch)                                                                   \
+    X(SortedAabbs, sorted_aabbs, Aabb, "fffffffu", Result)                                                             \
     X(PairCounts, pair_counts, uint, "u", Result)                                                                      \
     X(ScanSums, scan_sums, uint, "u", Scratch)                                                                         \
     X(Pairs, pairs, Pair, "uu", Result)                                                                                \
