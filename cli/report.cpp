@@ -57,7 +57,7 @@ std::uint64_t RunReport::nonfinite_bodies() const {
 }
 
 double RunReport::steps_per_second() const {
-    return timing.seconds > 0.0 ? static_cast<double>(timing.steps) / timing.seconds : 0.0;
+    return timing.seconds > 0.0 ? static_cast<double>(timing.timed_steps) / timing.seconds : 0.0;
 }
 
 RunReport make_report(const TimedRun& run) {

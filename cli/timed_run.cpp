@@ -31,7 +31,8 @@ Statistics statistics_of(std::vector<double> samples) {
 }
 
 TimedRun::TimedRun(scenes::Scene scene, const Settings& settings, const WorldOptions& options, std::uint32_t steps)
-    : source(std::move(scene)), simulated(settings, options), profile(options.profile) {
+    : source(std::move(scene)), simulated(settings, options), planned_steps(steps),
+      profile(options.profile) {
     const bool runs_ahead = simulated.device().kind == DeviceKind::Gpu;
     sample_interval = runs_ahead ? std::max(1u, steps / k_gpu_samples) : 1u;
 
@@ -44,11 +45,17 @@ TimedRun::TimedRun(scenes::Scene scene, const Settings& settings, const WorldOpt
 }
 
 void TimedRun::step() {
+    ++times.steps;
+    if (times.steps == 1 && planned_steps > 1) {
+        simulated.step(1);
+        simulated.wait();
+        return;
+    }
     if (!running) {
         running = true;
         start = Clock::now();
     }
-    ++times.steps;
+    ++times.timed_steps;
     if (times.steps % sample_interval == 0) {
         sample_step();
     } else {

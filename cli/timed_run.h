@@ -14,8 +14,9 @@ namespace talus::cli {
 
 /// Wall-clock times of the steps so far.
 struct Timing {
-    std::uint64_t steps = 0;
-    double seconds = 0.0;         ///< of all steps, without what lies between them
+    std::uint64_t steps = 0;      ///< all
+    std::uint64_t timed_steps = 0;
+    double seconds = 0.0;         ///< of the timed steps, without what lies between them
     std::vector<double> step_ms;  ///< of the sampled steps
     std::vector<double> stage_ms; ///< means over the sampled steps; empty where not profiled
 };
@@ -35,7 +36,8 @@ public:
     const World& world() const noexcept { return simulated; }
     const scenes::Scene& scene() const noexcept { return source; }
 
-    /// On a GPU it returns while the step is on its way, unless the step is sampled.
+    /// On a GPU it returns while the step is on its way, unless the step is sampled. The first step is not timed where
+    /// more follow: it compiles the kernels.
     void step();
     /// Waits for the steps and stops the clock until the next one: to be called before anything else is done.
     void settle();
@@ -50,6 +52,7 @@ private:
     scenes::Scene source;
     World simulated;
     Timing times;
+    std::uint32_t planned_steps;
     std::uint32_t sample_interval;
     bool profile;
     bool running = false;

@@ -180,6 +180,12 @@ void Simulation::finish_oldest() {
     report.growths = growths;
     const std::span<const double> stage_ms = device.stage_ms(done.ticket);
     report.stage_ms.assign(stage_ms.begin(), stage_ms.end());
+    if (placement.hybrid()) {
+        placement.detection->wait(done.ticket);
+        const std::span<const double> detection_ms = placement.detection->stage_ms(done.ticket);
+        for (std::size_t i = 0; i < detection_ms.size(); ++i)
+            report.stage_ms[i] += detection_ms[i];
+    }
     report.step_ms = std::accumulate(stage_ms.begin(), stage_ms.end(), 0.0);
     follow_colours(report.colours, report.overflow_manifolds);
 }

@@ -32,7 +32,10 @@ Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses) {
             hand_over_manifolds(*placement.detection, *placement.resolution, plan);
         run_stage(placement.of(stage), stage, plan);
     }
-    if (placement.hybrid()) hand_over_impulses(*placement.resolution, *placement.detection, plan);
+    if (placement.hybrid()) {
+        hand_over_impulses(*placement.resolution, *placement.detection, plan);
+        placement.detection->end_step(false); // the tickets of the two devices go together
+    }
     return placement.resolution->end_step(with_poses);
 }
 

@@ -28,6 +28,12 @@ inline bool is_finite(Vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+inline Settings weightless() {
+    Settings settings;
+    settings.gravity = {};
+    return settings;
+}
+
 /// A turn by `angle` (rad) about a unit axis.
 inline Quat turn(Vec3 axis, float angle) {
     const Vec3 u = axis * std::sin(0.5f * angle);

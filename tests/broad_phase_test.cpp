@@ -131,12 +131,6 @@ private:
     std::mt19937 random{7};
 };
 
-Settings weightless() {
-    Settings settings;
-    settings.gravity = {};
-    return settings;
-}
-
 class BroadPhases : public OnDevice {};
 
 TEST_P(BroadPhases, agree_with_the_oracle_for_any_number_of_bodies) {

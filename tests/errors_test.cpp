@@ -151,11 +151,14 @@ TEST_P(Errors, a_list_with_one_bad_body_adds_none) {
 
 TEST_P(Errors, ids_that_name_no_body_are_refused_by_every_call) {
     std::vector<Refusal> refusals;
-    for (const auto& [id, why] :
-         {std::pair{gone, "was removed"}, std::pair{BodyId{77, 0}, "is not known"}, std::pair{BodyId{}, "is not known"},
-          std::pair{BodyId{box.index, 5}, "generation 5"}}) {
+    const std::vector<std::pair<BodyId, std::string>> cases{{gone, "was removed"},
+                                                            {BodyId{77, 0}, "is not known"},
+                                                            {BodyId{}, "is not known"},
+                                                            {BodyId{box.index, 5}, "generation 5"}};
+    for (const auto& bad_case : cases) {
         const auto refuse = [&](const char* call, const std::function<void(BodyId)>& use) {
-            refusals.push_back({{call, "body " + std::to_string(id.index), why}, [use, bad = id] { use(bad); }});
+            const BodyId bad = bad_case.first;
+            refusals.push_back({{call, "body " + std::to_string(bad.index), bad_case.second}, [=] { use(bad); }});
         };
         refuse("remove", [this](BodyId bad) { world->remove(bad); });
         refuse("kind", [this](BodyId bad) { world->kind(bad); });

@@ -16,12 +16,6 @@ constexpr float k_gravity = 9.81f;   // m/s²
 constexpr float k_dt = 1.0f / 60.0f; // s
 constexpr float k_h = k_dt / 4.0f;   // s, the sub-step
 
-Settings weightless() {
-    Settings settings;
-    settings.gravity = {};
-    return settings;
-}
-
 class Physics : public OnDevice {};
 
 // ---- free flight ----

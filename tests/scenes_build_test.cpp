@@ -238,7 +238,7 @@ TEST(scenes, wrong_words_are_answered_in_words) {
         {"elephant", "unknown scene 'elephant'. The scenes are: stack"},
         {"stack:hight=3", "scene 'stack' has no parameter 'hight'; did you mean 'height'?"},
         {"wall:colour=3", "Its parameters are: width (boxes in a row, a whole number from 1 to 1000), height"},
-        {"extreme_stack:size=3", "scene 'extreme_stack' has no parameter 'size'. It has none."},
+        {"extreme_stack:size=3", "no parameter 'size'. Its parameters are: height (boxes in the tallest stack"},
         {"stack:height=3,height=4", "height is given twice"},
         {"stack:height=2.5", "must be a whole number from 1 to 1000, not '2.5'"},
         {"stack:height=ten", "must be a whole number from 1 to 1000, not 'ten'"},

@@ -18,5 +18,5 @@ void main()
     SpreadSum sum = empty_spread();
     for (uint group = 0u; group < group_count; group += 1u)
         sum = add_spreads(sum, spread_sums[group]);
-    sweep_axes[0] = choose_sweep_axis(sum);
+    sweep_axes[0] = choose_sweep_axis(sum, parameters.body_count);
 }

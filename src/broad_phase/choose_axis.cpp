@@ -11,7 +11,7 @@ static void choose_axis_on_cpu(CpuState& state, const Launch&) {
     SpreadSum sum = empty_spread();
     for (uint group = 0; group < group_count; ++group)
         sum = add_spreads(sum, state.spread_sums[group]);
-    state.sweep_axes[0] = choose_sweep_axis(sum);
+    state.sweep_axes[0] = choose_sweep_axis(sum, state.parameters.body_count);
 }
 
 const Kernel choose_axis{"broad_phase/choose_axis", choose_axis_on_cpu, 1};

@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a place in the sorted order: its body's box, so that the sweep reads boxes one after the other.
-// Reads: Aabbs, SortValues.
-// Writes: SortedAabbs.
+// One invocation is a place in the sorted order: its body's box, so that the sweep reads boxes one after the other; and
+// whether the large bodies, or the empty slots, begin here.
+// Reads: Aabbs, SortKeys, SortValues.
+// Writes: SortedAabbs, SweepAxes (first_large, end).
 // Needs: a barrier after the sort.
 // Overflow: none.
+#include "state/math.shared.glsl"
+#include "broad_phase/sweep_axis.shared.glsl"
+
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
 layout(std430) writeonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
+layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 
 void main()
 {
     uint place = item_index();
-    if (place < parameters.body_count) sorted_aabbs[place] = aabbs[sort_values[place]];
+    if (place >= parameters.body_count) return;
+    sorted_aabbs[place] = aabbs[sort_values[place]];
+    uint key = sort_keys[place];
+    uint key_before = place > 0u ? sort_keys[place - 1u] : 0u;
+    if (key >= k_large_key && key_before < k_large_key) sweep_axes[0].first_large = place;
+    if (key == k_absent_key && key_before < k_absent_key) sweep_axes[0].end = place;
 }

@@ -44,7 +44,8 @@ inline SpreadSum add_spreads(SpreadSum a, SpreadSum b)
 
 // The axis on which the centres of the movable bodies vary most, and the length from which on a body counts as large: a
 // large body would be swept across most of the world, so it is kept out of the sweep and tested against all.
-inline SweepAxis choose_sweep_axis(SpreadSum sum)
+// `body_count`: for the places that the sort will tell, should it find none.
+inline SweepAxis choose_sweep_axis(SpreadSum sum, uint body_count)
 {
     precise float inverse_count = reciprocal(max(sum.count, 1.0f));
     precise vec3 mean = sum.centre * inverse_count;
@@ -56,8 +57,8 @@ inline SweepAxis choose_sweep_axis(SpreadSum sum)
     if (variance.z > max(variance.x, variance.y)) result.axis = 2u;
     precise float large = 8.0f * component(extent, result.axis);
     result.large_extent = large;
-    result.reserved_1 = 0u;
-    result.reserved_2 = 0u;
+    result.first_large = body_count;
+    result.end = body_count;
     return result;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body in sorted order: sweeps the bodies after it until their boxes begin beyond its own end, and
 // then all large ones (thesis, algorithm 2). Run twice: args.x = 0 counts, 1 writes at the scanned offsets.
-// Reads: SortedAabbs, SweepAxes, SortKeys, SortValues.
+// Reads: SortedAabbs, SweepAxes, SortValues.
 // Writes: PairCounts (counting) or Pairs (writing), in the order of the sort.
 // Needs: a barrier after gather_aabbs; for writing, after the scan of the counts.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
@@ -13,25 +13,9 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
 layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
-layout(std430) readonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
 layout(std430) writeonly buffer Pairs { Pair pairs[]; };
-
-// How many places have a lower key.
-uint count_below(uint key)
-{
-    uint lower = 0u;
-    uint upper = parameters.body_count;
-    while (lower < upper) {
-        uint middle = (lower + upper) / 2u;
-        if (sort_keys[middle] < key)
-            lower = middle + 1u;
-        else
-            upper = middle;
-    }
-    return lower;
-}
 
 void main()
 {
@@ -43,11 +27,11 @@ void main()
     uint body = sort_values[place];
     Aabb box = sorted_aabbs[place];
     uint axis = sweep_axes[0].axis;
-    uint first_large = count_below(k_large_key);
+    uint first_large = sweep_axes[0].first_large;
     // The sweep ends at the first box beyond this one's end, and goes on with the large boxes.
     bool sweeping = place < first_large;
     uint i = place + 1u;
-    uint end = count_below(k_absent_key);
+    uint end = sweep_axes[0].end;
     while (i < end) {
         Aabb other_box = sorted_aabbs[i];
         if (sweeping && (i >= first_large || component(other_box.lower, axis) > component(box.upper, axis))) {

@@ -12,9 +12,8 @@ static void sweep_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const uint body_count = state.parameters.body_count;
     const bool writing = launch.args[0] == 1;
     const uint axis = state.sweep_axes[0].axis;
-    const uint* const keys = state.sort_keys.data;
-    const auto first_large = static_cast<uint>(std::lower_bound(keys, keys + body_count, k_large_key) - keys);
-    const auto last = static_cast<uint>(std::lower_bound(keys, keys + body_count, k_absent_key) - keys);
+    const uint first_large = state.sweep_axes[0].first_large;
+    const uint end = state.sweep_axes[0].end;
 
     const auto sweep = [&](uint place) {
         const uint body = state.sort_values[place];
@@ -31,7 +30,7 @@ static void sweep_pairs_on_cpu(CpuState& state, const Launch& launch) {
             if (component(state.sorted_aabbs[i].lower, axis) > component(box.upper, axis)) break;
             test(i);
         }
-        for (uint i = std::max(first_large, place + 1); i < last; ++i)
+        for (uint i = std::max(first_large, place + 1); i < end; ++i)
             test(i);
         if (!writing) state.pair_counts[place] = found;
     };

@@ -174,8 +174,8 @@ struct SpreadSum {
 struct SweepAxis {
     uint axis;          // 0 x, 1 y, 2 z
     float large_extent; // m: a body longer than this along the axis is tested against all
-    uint reserved_1;
-    uint reserved_2;
+    uint first_large;   // place in the sorted order from which on bodies are large
+    uint end;           // place of the first empty body slot
 };
 
 // The step's constants, 112 bytes: a uniform block in GLSL.
