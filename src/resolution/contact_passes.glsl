@@ -48,10 +48,10 @@ void pass_over_constraint(uint pass, uint index)
             s = solve_point(s, c.normal, t, c.friction, separation, pass == k_solve, soft, inertia_a, inertia_b,
                             parameters);
         }
-        constraint_points[i].max_normal_impulse = s.point.max_normal_impulse;
         constraint_points[i].normal_impulse = s.point.normal_impulse;
         constraint_points[i].tangent_impulse_1 = s.point.tangent_impulse_1;
         constraint_points[i].tangent_impulse_2 = s.point.tangent_impulse_2;
+        constraint_points[i].max_normal_impulse = s.point.max_normal_impulse;
     }
     // A body that contacts cannot push may be in many constraints of one colour: nobody writes it.
     if (s.velocities.a.inverse_mass > 0.0) store_velocity(c.body_a, s.velocities.a);

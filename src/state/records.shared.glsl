@@ -142,12 +142,13 @@ struct ContactConstraintPoint {
     float normal_mass; // kg, effective mass along the normal (equation 3.15)
     float tangent_mass_1;
     float tangent_mass_2;
-    float approach_speed;     // m/s along the normal at the start of the step, negative when closing
-    float max_normal_impulse; // N s, largest of all sub-steps: whether the point was hit at all
-    float normal_impulse;     // N s, accumulated
+    float approach_speed; // m/s along the normal at the start of the step, negative when closing
+    float reserved;
+    // What the solver's passes change: one cell, so that it is one store.
+    float normal_impulse; // N s, accumulated
     float tangent_impulse_1;
     float tangent_impulse_2;
-    float reserved;
+    float max_normal_impulse; // N s, largest of all sub-steps: whether the point was hit at all
 };
 
 // ---- control ----
