@@ -131,7 +131,7 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.relax = passes.relax;
     now.restitution = population.some_bounce;
     now.by_island = population.slots <= k_island_bodies;
-    now.one_island = population.some_kinematic;
+    now.one_island = population.some_kinematic || !placement.resolution->runs_groups_at_once();
     return now;
 }
 

@@ -22,7 +22,7 @@ struct StepPlan {
     uint colour_capacity = 0; ///< colours that get launches
     bool overflow = false;    ///< the overflow set gets launches
     bool by_island = false;   ///< small enough for one work group an island
-    bool one_island = false;  ///< islands are not told apart: kinematic bodies may belong to several
+    bool one_island = false;  ///< islands are not told apart: it would not pay, or a kinematic body may be part of several
     uint substeps = 0;
     uint iterations = 0;
     bool relax = false;

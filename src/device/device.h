@@ -88,6 +88,9 @@ public:
     virtual ~Device() = default;
 
     virtual DeviceInfo info() const = 0;
+    /// Whether work groups run side by side, so that work which is divided among them is done sooner. Not so on the CPU,
+    /// nor on an OpenGL renderer in software.
+    virtual bool runs_groups_at_once() const { return false; }
 
     /// Gives a buffer room for at least `bytes`; the old content stays at its start, the rest is zero.
     virtual void grow(BufferId, std::size_t bytes) = 0;
