@@ -79,18 +79,21 @@ TEST(WarmStart, friction_is_carried_as_a_vector) {
         const vec3 normal = direction();
         // A normal nearly the same: its tangents may lie anywhere.
         const vec3 next = glm::normalize(normal + 1e-3f * direction());
-        ManifoldPoint old{};
-        old.normal_impulse = 3.0f;
+        Manifold old{};
+        old.normal = normal;
+        old.twist_impulse = 3.0f;
         old.tangent_impulse_1 = spread(random);
         old.tangent_impulse_2 = spread(random);
-        const ManifoldPoint carried = carry_impulse(ManifoldPoint{}, next, old, normal);
-        const auto sideways = [](vec3 n, const ManifoldPoint& p) {
-            const Tangents t = contact_tangents(n);
-            return t.t1 * p.tangent_impulse_1 + t.t2 * p.tangent_impulse_2;
+        Manifold fresh{};
+        fresh.normal = next;
+        const Manifold carried = carry_friction(fresh, old);
+        const auto sideways = [](const Manifold& m) {
+            const Tangents t = contact_tangents(m.normal);
+            return t.t1 * m.tangent_impulse_1 + t.t2 * m.tangent_impulse_2;
         };
-        ASSERT_EQ(carried.normal_impulse, 3.0f);
-        const vec3 before = sideways(normal, old);
-        ASSERT_LT(glm::length(sideways(next, carried) - before), 2e-3f * (1.0f + glm::length(before)));
+        ASSERT_EQ(carried.twist_impulse, 3.0f);
+        const vec3 before = sideways(old);
+        ASSERT_LT(glm::length(sideways(carried) - before), 2e-3f * (1.0f + glm::length(before)));
     }
 }
 

@@ -48,13 +48,12 @@ void main()
     uint old_index = find_old_manifold(pair);
     uint old_axis = k_axis_none;
     uint old_colour = k_no_colour;
-    vec3 old_normal = vec3(0.0);
+    Manifold old;
     OldPoints old_points = no_old_points();
     if (old_index != k_none) {
-        Manifold old = old_manifolds[old_index];
+        old = old_manifolds[old_index];
         old_axis = old.axis;
         old_colour = old.colour;
-        old_normal = old.normal;
         old_points.count = old.point_count;
         for (uint i = 0u; i < old.point_count; ++i) {
             old_points.anchors[i] = old_manifold_points[4u * old_index + i].anchor_a;
@@ -68,16 +67,15 @@ void main()
     precise float max_separation = aabbs[pair.body_a].margin + aabbs[pair.body_b].margin;
     ContactGeometry g =
         collide_shapes(pose_a, shapes[pair.body_a], pose_b, shapes[pair.body_b], old_axis, max_separation);
-    manifolds[pair_index] =
-        make_manifold(pair, g, old_colour, properties[pair.body_a], properties[pair.body_b]);
+    Manifold manifold = make_manifold(pair, g, old_colour, properties[pair.body_a], properties[pair.body_b]);
+    if (old_index != k_none) manifold = carry_friction(manifold, old);
+    manifolds[pair_index] = manifold;
 
     PointMatch match = match_points(g, old_points, g.axis == old_axis);
     for (uint i = 0u; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, offset, i);
-        if (match.old_index[i] != k_none) {
-            ManifoldPoint old = old_manifold_points[4u * old_index + match.old_index[i]];
-            point = carry_impulse(point, g.normal, old, old_normal);
-        }
+        if (match.old_index[i] != k_none)
+            point.normal_impulse = old_manifold_points[4u * old_index + match.old_index[i]].normal_impulse;
         manifold_points[4u * pair_index + i] = point;
     }
 }

@@ -25,14 +25,12 @@ void collide_pair(CpuState& state, uint pair_index) {
     const ManifoldPoint* old_records = nullptr;
     uint old_axis = k_axis_none;
     uint old_colour = k_no_colour;
-    vec3 old_normal(0.0f);
     OldPoints old_points = no_old_points();
     if (old_index != k_none) {
         const Manifold& old = state.old_manifolds[old_index];
         old_records = &state.old_manifold_points[std::size_t{4} * old_index];
         old_axis = old.axis;
         old_colour = old.colour;
-        old_normal = old.normal;
         old_points.count = old.point_count;
         for (uint i = 0; i < old.point_count; ++i) {
             old_points.anchors[i] = old_records[i].anchor_a;
@@ -46,14 +44,15 @@ void collide_pair(CpuState& state, uint pair_index) {
     const float max_separation = state.aabbs[pair.body_a].margin + state.aabbs[pair.body_b].margin;
     const ContactGeometry g = collide_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b],
                                              old_axis, max_separation);
-    state.manifolds[pair_index] =
-        make_manifold(pair, g, old_colour, state.properties[pair.body_a], state.properties[pair.body_b]);
+    Manifold& manifold = state.manifolds[pair_index];
+    manifold = make_manifold(pair, g, old_colour, state.properties[pair.body_a], state.properties[pair.body_b]);
+    if (old_index != k_none) manifold = carry_friction(manifold, state.old_manifolds[old_index]);
 
     const PointMatch match = match_points(g, old_points, g.axis == old_axis);
     for (uint i = 0; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, offset, i);
         if (match.old_index[i] != k_none)
-            point = carry_impulse(point, g.normal, old_records[match.old_index[i]], old_normal);
+            point.normal_impulse = old_records[match.old_index[i]].normal_impulse;
         state.manifold_points[std::size_t{4} * pair_index + i] = point;
     }
 }

@@ -123,22 +123,9 @@ inline ManifoldPoint make_point(ContactGeometry g, vec3 offset, uint i)
     point.anchor_b = anchor_b;
     point.feature_id = g.features[i];
     point.normal_impulse = 0.0f;
-    point.tangent_impulse_1 = 0.0f;
-    point.tangent_impulse_2 = 0.0f;
-    point.reserved = 0.0f;
-    return point;
-}
-
-// Gives a new point the impulse of an old one. Friction is carried as a vector: the tangents of two normals that are
-// nearly the same may lie far apart.
-inline ManifoldPoint carry_impulse(ManifoldPoint point, vec3 normal, ManifoldPoint old, vec3 old_normal)
-{
-    Tangents t = contact_tangents(normal);
-    Tangents old_t = contact_tangents(old_normal);
-    precise vec3 sideways = old_t.t1 * old.tangent_impulse_1 + old_t.t2 * old.tangent_impulse_2;
-    point.normal_impulse = old.normal_impulse;
-    point.tangent_impulse_1 = dot3(sideways, t.t1);
-    point.tangent_impulse_2 = dot3(sideways, t.t2);
+    point.reserved_1 = 0.0f;
+    point.reserved_2 = 0.0f;
+    point.reserved_3 = 0.0f;
     return point;
 }
 
@@ -153,7 +140,24 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, uint old_colour, Bod
     manifold.axis = g.axis;
     manifold.friction = combine_friction(a, b);
     manifold.restitution = combine_restitution(a, b);
+    manifold.tangent_impulse_1 = 0.0f;
+    manifold.tangent_impulse_2 = 0.0f;
+    manifold.twist_impulse = 0.0f;
     manifold.reserved_1 = 0u;
     manifold.reserved_2 = 0u;
+    manifold.reserved_3 = 0u;
+    return manifold;
+}
+
+// Gives a new manifold the friction of the last step's. It is carried as a vector: the tangents of two normals that are
+// nearly the same may lie far apart.
+inline Manifold carry_friction(Manifold manifold, Manifold old)
+{
+    Tangents t = contact_tangents(manifold.normal);
+    Tangents old_t = contact_tangents(old.normal);
+    precise vec3 sideways = old_t.t1 * old.tangent_impulse_1 + old_t.t2 * old.tangent_impulse_2;
+    manifold.tangent_impulse_1 = dot3(sideways, t.t1);
+    manifold.tangent_impulse_2 = dot3(sideways, t.t2);
+    manifold.twist_impulse = old.twist_impulse;
     return manifold;
 }

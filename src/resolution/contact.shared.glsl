@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The rows of one contact point: a normal and two friction rows, solved by sequential impulses (thesis, section 3.4).
+// The rows of a manifold, solved by sequential impulses (thesis, section 3.4): a normal row for each point; for all points
+// together two friction rows at their middle, and one against twisting about the normal.
+//
+// Differs from the thesis, which has two friction rows for each point: of the twelve rows of a face six were redundant,
+// and they were half of the arithmetic.
 //
 // Symbols: v, w linear and angular velocity; r anchor from the body's centre; n normal from A to B; t1, t2 tangents;
 // K = J M^-1 J^T (equation 3.15 without the inversion); lambda accumulated impulse.
@@ -42,11 +46,15 @@ inline VelocityPair apply_impulse(VelocityPair v, vec3 impulse, vec3 r_a, vec3 r
     return v;
 }
 
-// The accumulated impulse of a point as a vector.
-inline vec3 point_impulse(ContactConstraintPoint point, vec3 n, Tangents t)
+// Applies the angular impulse L about the normal to B and -L to A.
+inline VelocityPair apply_twist(VelocityPair v, vec3 n, float impulse, BodyInertia inertia_a, BodyInertia inertia_b)
 {
-    precise vec3 impulse = n * point.normal_impulse + t.t1 * point.tangent_impulse_1 + t.t2 * point.tangent_impulse_2;
-    return impulse;
+    vec3 twist = scale3(n, impulse);
+    precise vec3 angular_a = v.a.angular - multiply_inertia(inertia_a, twist);
+    precise vec3 angular_b = v.b.angular + multiply_inertia(inertia_b, twist);
+    v.a.angular = angular_a;
+    v.b.angular = angular_b;
+    return v;
 }
 
 // What a manifold's points share of their present separation.
@@ -117,57 +125,119 @@ inline float solve_normal_row(ContactConstraintPoint point, float normal_velocit
     return impulse;
 }
 
-// New accumulated friction impulses, held inside the cone: a circle of radius mu times the normal impulse. A point that
-// slides takes the smaller mass for both directions. With a mass for each, what is left on the rim of the cone does not
-// point against the sliding: a box lost 8 % of its friction on a slope of 35 degrees, and drifted to the side.
-inline vec2 solve_friction_rows(ContactConstraintPoint point, float velocity_1, float velocity_2, float friction)
+// New accumulated friction impulses, held inside the cone: a circle of radius `limit`. A manifold that slides takes the
+// smaller mass for both directions. With a mass for each, what is left on the rim of the cone does not point against the
+// sliding: a box lost 8 % of its friction on a slope of 35 degrees, and drifted to the side.
+inline vec2 solve_friction_rows(vec2 impulse, vec2 mass, vec2 velocity, float limit)
 {
-    precise float limit = friction * point.normal_impulse;
     precise float square_limit = limit * limit;
-    precise float stuck_1 = point.tangent_impulse_1 - point.tangent_mass_1 * velocity_1;
-    precise float stuck_2 = point.tangent_impulse_2 - point.tangent_mass_2 * velocity_2;
-    precise float stuck_square = stuck_1 * stuck_1 + stuck_2 * stuck_2;
-    if (stuck_square <= square_limit) return vec2(stuck_1, stuck_2);
+    precise vec2 stuck = impulse - mass * velocity;
+    precise float stuck_square = stuck.x * stuck.x + stuck.y * stuck.y;
+    if (stuck_square <= square_limit) return stuck;
 
-    float mass = min(point.tangent_mass_1, point.tangent_mass_2);
-    precise float impulse_1 = point.tangent_impulse_1 - mass * velocity_1;
-    precise float impulse_2 = point.tangent_impulse_2 - mass * velocity_2;
-    precise float square = impulse_1 * impulse_1 + impulse_2 * impulse_2;
-    if (square <= square_limit) return vec2(impulse_1, impulse_2);
+    float smaller = min(mass.x, mass.y);
+    precise vec2 sliding = impulse - smaller * velocity;
+    precise float square = sliding.x * sliding.x + sliding.y * sliding.y;
+    if (square <= square_limit) return sliding;
     precise float scale = limit * inverse_sqrt(square);
-    precise float held_1 = impulse_1 * scale;
-    precise float held_2 = impulse_2 * scale;
-    return vec2(held_1, held_2);
+    precise vec2 held = sliding * scale;
+    return held;
 }
 
-// A body pair and a point in the midst of the solver's pass over a manifold.
+// What presses a manifold together: the bounds of its friction before the coefficient.
+struct Pressure {
+    float force;  // N s: the sum of the normal impulses
+    float torque; // N m s: the same, each times its lever
+};
+
+inline Pressure no_pressure()
+{
+    Pressure p;
+    p.force = 0.0f;
+    p.torque = 0.0f;
+    return p;
+}
+
+inline Pressure add_pressure(Pressure p, ContactConstraintPoint point)
+{
+    precise float force = p.force + point.normal_impulse;
+    precise float torque = p.torque + point.normal_impulse * point.lever;
+    p.force = force;
+    p.torque = torque;
+    return p;
+}
+
+// A body pair and its manifold in the midst of a pass of the solver.
+struct ManifoldState {
+    VelocityPair velocities;
+    ContactConstraint c;
+};
+
+// One pass over the friction rows. They come before the normal rows, as keeping bodies apart matters more and the last
+// row wins.
+inline ManifoldState solve_friction(ManifoldState s, Tangents t, Pressure pressure, BodyInertia inertia_a,
+                                    BodyInertia inertia_b)
+{
+    vec3 r_a = s.c.centre_a;
+    vec3 r_b = s.c.centre_b;
+    vec3 dv = relative_velocity(s.velocities.a, s.velocities.b, r_a, r_b);
+    precise float limit = s.c.friction * pressure.force;
+    vec2 tangent = solve_friction_rows(vec2(s.c.tangent_impulse_1, s.c.tangent_impulse_2),
+                                       vec2(s.c.tangent_mass_1, s.c.tangent_mass_2),
+                                       vec2(dot3(dv, t.t1), dot3(dv, t.t2)), limit);
+    precise float change_1 = tangent.x - s.c.tangent_impulse_1;
+    precise float change_2 = tangent.y - s.c.tangent_impulse_2;
+    precise vec3 sideways = t.t1 * change_1 + t.t2 * change_2;
+    s.c.tangent_impulse_1 = tangent.x;
+    s.c.tangent_impulse_2 = tangent.y;
+    s.velocities = apply_impulse(s.velocities, sideways, r_a, r_b, inertia_a, inertia_b);
+
+    precise vec3 spin = s.velocities.b.angular - s.velocities.a.angular;
+    precise float twist_limit = s.c.friction * pressure.torque;
+    precise float wanted = s.c.twist_impulse - s.c.twist_mass * dot3(spin, s.c.normal);
+    float twist = clamp_to(wanted, -twist_limit, twist_limit);
+    precise float change = twist - s.c.twist_impulse;
+    s.c.twist_impulse = twist;
+    s.velocities = apply_twist(s.velocities, s.c.normal, change, inertia_a, inertia_b);
+    return s;
+}
+
+// The accumulated friction again, to start from.
+inline ManifoldState start_friction(ManifoldState s, Tangents t, BodyInertia inertia_a, BodyInertia inertia_b)
+{
+    precise vec3 sideways = t.t1 * s.c.tangent_impulse_1 + t.t2 * s.c.tangent_impulse_2;
+    s.velocities = apply_impulse(s.velocities, sideways, s.c.centre_a, s.c.centre_b, inertia_a, inertia_b);
+    s.velocities = apply_twist(s.velocities, s.c.normal, s.c.twist_impulse, inertia_a, inertia_b);
+    return s;
+}
+
+// A body pair and a point in the midst of a pass of the solver.
 struct PointState {
     VelocityPair velocities;
     ContactConstraintPoint point;
 };
 
-// One pass over one point: friction first, as keeping bodies apart matters more and the last row wins.
-inline PointState solve_point(PointState s, vec3 n, Tangents t, float friction, float separation, bool use_bias,
-                              Softness soft, BodyInertia inertia_a, BodyInertia inertia_b, Parameters p)
+// One pass over the normal row of a point.
+inline PointState solve_point(PointState s, vec3 n, float separation, bool use_bias, Softness soft,
+                              BodyInertia inertia_a, BodyInertia inertia_b, Parameters p)
 {
     vec3 r_a = s.point.anchor_a;
     vec3 r_b = s.point.anchor_b;
     vec3 dv = relative_velocity(s.velocities.a, s.velocities.b, r_a, r_b);
-    vec2 tangent = solve_friction_rows(s.point, dot3(dv, t.t1), dot3(dv, t.t2), friction);
-    precise float change_1 = tangent.x - s.point.tangent_impulse_1;
-    precise float change_2 = tangent.y - s.point.tangent_impulse_2;
-    precise vec3 sideways = t.t1 * change_1 + t.t2 * change_2;
-    s.point.tangent_impulse_1 = tangent.x;
-    s.point.tangent_impulse_2 = tangent.y;
-    s.velocities = apply_impulse(s.velocities, sideways, r_a, r_b, inertia_a, inertia_b);
-
-    dv = relative_velocity(s.velocities.a, s.velocities.b, r_a, r_b);
     float bias = row_bias(separation, use_bias, soft, p);
     float impulse = solve_normal_row(s.point, dot3(dv, n), bias, row_softness(separation, use_bias, soft));
     precise float change = impulse - s.point.normal_impulse;
     s.point.normal_impulse = impulse;
     s.point.max_normal_impulse = max(s.point.max_normal_impulse, impulse);
     s.velocities = apply_impulse(s.velocities, scale3(n, change), r_a, r_b, inertia_a, inertia_b);
+    return s;
+}
+
+// The accumulated normal impulse again, to start from.
+inline PointState start_point(PointState s, vec3 n, BodyInertia inertia_a, BodyInertia inertia_b)
+{
+    s.velocities = apply_impulse(s.velocities, scale3(n, s.point.normal_impulse), s.point.anchor_a, s.point.anchor_b,
+                                 inertia_a, inertia_b);
     return s;
 }
 
@@ -188,8 +258,8 @@ inline PointState apply_point_restitution(PointState s, vec3 n, float restitutio
     return s;
 }
 
-inline ContactConstraint make_constraint(Manifold manifold, uint manifold_index, BodyInertia inertia_a,
-                                         BodyInertia inertia_b)
+// A constraint without the middle of its points yet.
+inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index)
 {
     ContactConstraint c;
     c.body_a = manifold.body_a;
@@ -198,33 +268,58 @@ inline ContactConstraint make_constraint(Manifold manifold, uint manifold_index,
     c.point_count = manifold.point_count;
     c.normal = manifold.normal;
     c.friction = manifold.friction;
+    c.centre_a = vec3(0.0f, 0.0f, 0.0f);
+    c.tangent_mass_1 = 0.0f;
+    c.centre_b = vec3(0.0f, 0.0f, 0.0f);
+    c.tangent_mass_2 = 0.0f;
     c.restitution = manifold.restitution;
-    c.against_static = (inertia_a.movable & inertia_b.movable) ^ 1u;
-    c.reserved_1 = 0u;
-    c.reserved_2 = 0u;
+    c.against_static = 0u;
+    c.twist_mass = 0.0f;
+    c.reserved_1 = 0.0f;
+    c.tangent_impulse_1 = manifold.tangent_impulse_1;
+    c.tangent_impulse_2 = manifold.tangent_impulse_2;
+    c.twist_impulse = manifold.twist_impulse;
+    c.reserved_2 = 0.0f;
     return c;
 }
 
-inline ContactConstraintPoint prepare_point(ManifoldPoint old, vec3 n, Tangents t, BodyVelocity a, BodyVelocity b,
+inline ContactConstraint add_to_centre(ContactConstraint c, ManifoldPoint point)
+{
+    precise float share = reciprocal(float(c.point_count));
+    c.centre_a = add_scaled(c.centre_a, point.anchor_a, share);
+    c.centre_b = add_scaled(c.centre_b, point.anchor_b, share);
+    return c;
+}
+
+inline ContactConstraint finish_constraint(ContactConstraint c, Tangents t, BodyVelocity a, BodyVelocity b,
+                                           BodyInertia inertia_a, BodyInertia inertia_b)
+{
+    c.tangent_mass_1 =
+        effective_mass(t.t1, c.centre_a, c.centre_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
+    c.tangent_mass_2 =
+        effective_mass(t.t2, c.centre_a, c.centre_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
+    precise float k = dot3(c.normal, multiply_inertia(inertia_a, c.normal)) +
+                      dot3(c.normal, multiply_inertia(inertia_b, c.normal));
+    c.twist_mass = k > 0.0f ? reciprocal(k) : 0.0f;
+    c.against_static = (inertia_a.movable & inertia_b.movable) ^ 1u;
+    return c;
+}
+
+inline ContactConstraintPoint prepare_point(ManifoldPoint old, ContactConstraint c, BodyVelocity a, BodyVelocity b,
                                             BodyInertia inertia_a, BodyInertia inertia_b)
 {
     ContactConstraintPoint point;
     point.anchor_a = old.anchor_a;
     point.anchor_b = old.anchor_b;
     precise vec3 apart = old.anchor_b - old.anchor_a;
-    precise float base = old.separation - dot3(apart, n);
+    precise float base = old.separation - dot3(apart, c.normal);
+    precise vec3 arm = old.anchor_a - c.centre_a;
     point.base_separation = base;
     point.normal_mass =
-        effective_mass(n, old.anchor_a, old.anchor_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
-    point.tangent_mass_1 =
-        effective_mass(t.t1, old.anchor_a, old.anchor_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
-    point.tangent_mass_2 =
-        effective_mass(t.t2, old.anchor_a, old.anchor_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
-    point.approach_speed = dot3(relative_velocity(a, b, old.anchor_a, old.anchor_b), n);
-    point.max_normal_impulse = 0.0f;
+        effective_mass(c.normal, old.anchor_a, old.anchor_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
+    point.lever = length3(arm);
+    point.approach_speed = dot3(relative_velocity(a, b, old.anchor_a, old.anchor_b), c.normal);
     point.normal_impulse = old.normal_impulse;
-    point.tangent_impulse_1 = old.tangent_impulse_1;
-    point.tangent_impulse_2 = old.tangent_impulse_2;
-    point.reserved = 0.0f;
+    point.max_normal_impulse = 0.0f;
     return point;
 }

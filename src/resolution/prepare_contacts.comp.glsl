@@ -30,11 +30,13 @@ void main()
     BodyInertia inertia_b = inertias[manifold.body_b];
     BodyVelocity velocity_a = velocities[manifold.body_a];
     BodyVelocity velocity_b = velocities[manifold.body_b];
-    constraints[index] = make_constraint(manifold, manifold_index, inertia_a, inertia_b);
-    Tangents t = contact_tangents(manifold.normal);
+    ContactConstraint c = begin_constraint(manifold, manifold_index);
+    for (uint i = 0u; i < manifold.point_count; ++i)
+        c = add_to_centre(c, manifold_points[4u * manifold_index + i]);
+    c = finish_constraint(c, contact_tangents(manifold.normal), velocity_a, velocity_b, inertia_a, inertia_b);
+    constraints[index] = c;
     for (uint i = 0u; i < manifold.point_count; ++i) {
         ManifoldPoint point = manifold_points[4u * manifold_index + i];
-        constraint_points[4u * index + i] =
-            prepare_point(point, manifold.normal, t, velocity_a, velocity_b, inertia_a, inertia_b);
+        constraint_points[4u * index + i] = prepare_point(point, c, velocity_a, velocity_b, inertia_a, inertia_b);
     }
 }

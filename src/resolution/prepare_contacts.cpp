@@ -14,13 +14,15 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
         const BodyInertia& inertia_b = state.inertias[manifold.body_b];
         const BodyVelocity& velocity_a = state.velocities[manifold.body_a];
         const BodyVelocity& velocity_b = state.velocities[manifold.body_b];
-        state.constraints[index] = make_constraint(manifold, manifold_index, inertia_a, inertia_b);
-        const Tangents t = contact_tangents(manifold.normal);
-        for (std::size_t i = 0; i < manifold.point_count; ++i) {
-            const ManifoldPoint& point = state.manifold_points[std::size_t{4} * manifold_index + i];
+        const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * manifold_index];
+        ContactConstraint& c = state.constraints[index];
+        c = begin_constraint(manifold, manifold_index);
+        for (uint i = 0; i < manifold.point_count; ++i)
+            c = add_to_centre(c, points[i]);
+        c = finish_constraint(c, contact_tangents(manifold.normal), velocity_a, velocity_b, inertia_a, inertia_b);
+        for (uint i = 0; i < manifold.point_count; ++i)
             state.constraint_points[std::size_t{4} * index + i] =
-                prepare_point(point, manifold.normal, t, velocity_a, velocity_b, inertia_a, inertia_b);
-        }
+                prepare_point(points[i], c, velocity_a, velocity_b, inertia_a, inertia_b);
     });
 }
 

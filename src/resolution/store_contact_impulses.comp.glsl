@@ -2,7 +2,7 @@
 // One invocation is a manifold in the order of colours: its impulses and its colour go back to where the next step, and
 // the caller, find them.
 // Reads: Counters, Constraints, ConstraintPoints, ManifoldKeys.
-// Writes: ManifoldPoints (impulses), Manifolds (colour).
+// Writes: ManifoldPoints and Manifolds (impulses, colour).
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 
@@ -21,10 +21,9 @@ void main()
     if (index >= counters[k_counter_manifold_count]) return;
     uint manifold = constraints[index].manifold;
     manifolds[manifold].colour = manifold_keys[index] & ((1u << k_colour_bits) - 1u);
-    for (uint i = 0u; i < constraints[index].point_count; ++i) {
-        ContactConstraintPoint point = constraint_points[4u * index + i];
-        manifold_points[4u * manifold + i].normal_impulse = point.normal_impulse;
-        manifold_points[4u * manifold + i].tangent_impulse_1 = point.tangent_impulse_1;
-        manifold_points[4u * manifold + i].tangent_impulse_2 = point.tangent_impulse_2;
-    }
+    manifolds[manifold].tangent_impulse_1 = constraints[index].tangent_impulse_1;
+    manifolds[manifold].tangent_impulse_2 = constraints[index].tangent_impulse_2;
+    manifolds[manifold].twist_impulse = constraints[index].twist_impulse;
+    for (uint i = 0u; i < constraints[index].point_count; ++i)
+        manifold_points[4u * manifold + i].normal_impulse = constraint_points[4u * index + i].normal_impulse;
 }

@@ -8,14 +8,14 @@ namespace talus::engine {
 static void store_contact_impulses_on_cpu(CpuState& state, const Launch&) {
     state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
         const ContactConstraint& constraint = state.constraints[index];
-        state.manifolds[constraint.manifold].colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
-        for (std::size_t i = 0; i < constraint.point_count; ++i) {
-            const ContactConstraintPoint& point = state.constraint_points[std::size_t{4} * index + i];
-            ManifoldPoint& target = state.manifold_points[std::size_t{4} * constraint.manifold + i];
-            target.normal_impulse = point.normal_impulse;
-            target.tangent_impulse_1 = point.tangent_impulse_1;
-            target.tangent_impulse_2 = point.tangent_impulse_2;
-        }
+        Manifold& manifold = state.manifolds[constraint.manifold];
+        manifold.colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
+        manifold.tangent_impulse_1 = constraint.tangent_impulse_1;
+        manifold.tangent_impulse_2 = constraint.tangent_impulse_2;
+        manifold.twist_impulse = constraint.twist_impulse;
+        for (std::size_t i = 0; i < constraint.point_count; ++i)
+            state.manifold_points[std::size_t{4} * constraint.manifold + i].normal_impulse =
+                state.constraint_points[std::size_t{4} * index + i].normal_impulse;
     });
 }
 

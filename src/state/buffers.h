@@ -40,9 +40,9 @@ namespace talus::engine {
     X(Pairs, pairs, Pair, "uu", Result)                                                                                \
     /* narrow phase */                                                                                                 \
     X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
-    X(OldManifolds, old_manifolds, Manifold, "uuuufffuffuu", State)                                                    \
+    X(OldManifolds, old_manifolds, Manifold, "uuuufffufffffuuu", State)                                                \
     X(OldManifoldPoints, old_manifold_points, ManifoldPoint, "fffffffuffff", State)                                    \
-    X(Manifolds, manifolds, Manifold, "uuuufffuffuu", Result)                                                          \
+    X(Manifolds, manifolds, Manifold, "uuuufffufffffuuu", Result)                                                      \
     X(ManifoldPoints, manifold_points, ManifoldPoint, "fffffffuffff", Result)                                          \
     /* resolution */                                                                                                   \
     X(Islands, islands, uint, "u", Result)                                                                             \
@@ -56,8 +56,8 @@ namespace talus::engine {
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
-    X(Constraints, constraints, ContactConstraint, "uuuufffffuuu", Result)                                             \
-    X(ConstraintPoints, constraint_points, ContactConstraintPoint, "ffffffffffffffff", Result)                         \
+    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffuffffff", Result)                                 \
+    X(ConstraintPoints, constraint_points, ContactConstraintPoint, "ffffffffffff", Result)                             \
     /* control */                                                                                                      \
     X(Counters, counters, uint, "u", State)                                                                            \
     X(Dispatches, dispatches, Dispatch, "uuuu", Result)

@@ -94,7 +94,7 @@ struct Pair {
     uint body_b;
 };
 
-// 48 bytes, one a pair. point_count is 0 where the two do not touch. Kept for one step, to warm start the next.
+// 64 bytes, one a pair. point_count is 0 where the two do not touch. Kept for one step, to warm start the next.
 struct Manifold {
     uint body_a;
     uint body_b;
@@ -104,8 +104,12 @@ struct Manifold {
     uint axis;        // the separating axis it stands on, see narrow_phase/collide_boxes.shared.glsl
     float friction;
     float restitution;
+    float tangent_impulse_1; // N s, accumulated; friction of all points together
+    float tangent_impulse_2;
+    float twist_impulse; // N m s, about the normal
     uint reserved_1;
     uint reserved_2;
+    uint reserved_3;
 };
 
 // 48 bytes, four a pair.
@@ -115,12 +119,12 @@ struct ManifoldPoint {
     vec3 anchor_b;    // m, from B's centre, world axes
     uint feature_id;
     float normal_impulse; // N s, accumulated
-    float tangent_impulse_1;
-    float tangent_impulse_2;
-    float reserved;
+    float reserved_1;
+    float reserved_2;
+    float reserved_3;
 };
 
-// 48 bytes, one a manifold, in the order of colours: what the solver reads of it.
+// 96 bytes, one a manifold, in the order of the solve: what the solver reads of it.
 struct ContactConstraint {
     uint body_a;
     uint body_b;
@@ -128,26 +132,30 @@ struct ContactConstraint {
     uint point_count;
     vec3 normal;
     float friction;
+    vec3 centre_a; // m, the middle of the points from A's centre: where friction acts
+    float tangent_mass_1; // kg
+    vec3 centre_b; // m, from B's centre
+    float tangent_mass_2;
     float restitution;
     uint against_static; // 1 where contacts can push only one of the two
-    uint reserved_1;
-    uint reserved_2;
+    float twist_mass;    // kg m^2, about the normal
+    float reserved_1;
+    // What the solver's passes change.
+    float tangent_impulse_1; // N s, accumulated
+    float tangent_impulse_2;
+    float twist_impulse; // N m s, accumulated
+    float reserved_2;
 };
 
-// 64 bytes, four a constraint.
+// 48 bytes, four a constraint.
 struct ContactConstraintPoint {
     vec3 anchor_a;
     float base_separation; // m: separation without what the anchors themselves contribute
     vec3 anchor_b;
     float normal_mass; // kg, effective mass along the normal (equation 3.15)
-    float tangent_mass_1;
-    float tangent_mass_2;
+    float lever;          // m, from the middle of the points
     float approach_speed; // m/s along the normal at the start of the step, negative when closing
-    float reserved;
-    // What the solver's passes change: one cell, so that it is one store.
     float normal_impulse; // N s, accumulated
-    float tangent_impulse_1;
-    float tangent_impulse_2;
     float max_normal_impulse; // N s, largest of all sub-steps: whether the point was hit at all
 };
 
