@@ -27,8 +27,8 @@ int compare(const Options& options) {
 
     fmt::print("{}, step {}: the same state on the CPU and on the GPU, compared after each stage\n", scene.name,
                options.steps + 1);
-    fmt::print("{:<18}{:<20}{:>12}{:>16}{:>14}{:>14}\n", "stage", "buffer", "words", "integers differ",
-               "floats differ", "largest error");
+    fmt::print("{:<18}{:<20}{:>12}{:>16}{:>14}{:>14}\n", "stage", "buffer", "words", "integers differ", "floats differ",
+               "largest error");
     for (const engine::BufferParity& row : report.rows)
         fmt::print("{:<18}{:<20}{:>12}{:>16}{:>14}{:>14.2g}\n", row.stage, row.buffer, row.words, row.integers_differ,
                    row.floats_differ, row.largest_error);

@@ -31,8 +31,7 @@ Statistics statistics_of(std::vector<double> samples) {
 }
 
 TimedRun::TimedRun(scenes::Scene scene, const Settings& settings, const WorldOptions& options, std::uint32_t steps)
-    : source(std::move(scene)), simulated(settings, options), planned_steps(steps),
-      profile(options.profile) {
+    : source(std::move(scene)), simulated(settings, options), planned_steps(steps), profile(options.profile) {
     const bool runs_ahead = simulated.device().kind == DeviceKind::Gpu;
     sample_interval = runs_ahead ? std::max(1u, steps / k_gpu_samples) : 1u;
 

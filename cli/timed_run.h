@@ -14,7 +14,7 @@ namespace talus::cli {
 
 /// Wall-clock times of the steps so far.
 struct Timing {
-    std::uint64_t steps = 0;      ///< all
+    std::uint64_t steps = 0; ///< all
     std::uint64_t timed_steps = 0;
     double seconds = 0.0;         ///< of the timed steps, without what lies between them
     std::vector<double> step_ms;  ///< of the sampled steps

@@ -7,10 +7,13 @@
 namespace talus::engine {
 namespace {
 
-struct MassProperties {
-    float mass;   // kg
-    Vec3 inertia; // kg m^2, about the shape's own axes
-};
+BodyShape pack_shape(const Shape& shape, BodyKind kind) {
+    const uint kind_bits = static_cast<uint>(kind) << 8;
+    if (const auto* box = std::get_if<Box>(&shape)) return {to_glm(box->size) * 0.5f, k_shape_box | kind_bits};
+    return {vec3(std::get<Sphere>(shape).radius), k_shape_sphere | kind_bits};
+}
+
+} // namespace
 
 MassProperties mass_properties(const BodyDefinition& definition) {
     MassProperties result{};
@@ -30,23 +33,23 @@ MassProperties mass_properties(const BodyDefinition& definition) {
     return result;
 }
 
-BodyShape pack_shape(const Shape& shape, BodyKind kind) {
-    const uint kind_bits = static_cast<uint>(kind) << 8;
-    if (const auto* box = std::get_if<Box>(&shape)) return {to_glm(box->size) * 0.5f, k_shape_box | kind_bits};
-    return {vec3(std::get<Sphere>(shape).radius), k_shape_sphere | kind_bits};
+vec3 to_glm(Vec3 v) {
+    return {v.x, v.y, v.z};
 }
-
-} // namespace
-
-vec3 to_glm(Vec3 v) { return {v.x, v.y, v.z}; }
-vec4 to_glm(Quat q) { return {q.x, q.y, q.z, q.w}; }
-Vec3 from_glm(vec3 v) { return {v.x, v.y, v.z}; }
+vec4 to_glm(Quat q) {
+    return {q.x, q.y, q.z, q.w};
+}
+Vec3 from_glm(vec3 v) {
+    return {v.x, v.y, v.z};
+}
 
 Pose from_record(const BodyPose& pose) {
     return {from_glm(pose.position), {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}};
 }
 
-Velocity from_record(const BodyVelocity& velocity) { return {from_glm(velocity.linear), from_glm(velocity.angular)}; }
+Velocity from_record(const BodyVelocity& velocity) {
+    return {from_glm(velocity.linear), from_glm(velocity.angular)};
+}
 
 uint pack_combine(const Material& material) {
     return static_cast<uint>(material.friction_combine) | static_cast<uint>(material.restitution_combine) << 8;

@@ -21,6 +21,13 @@ enum Dirty : std::uint8_t {
     k_dirty_all = 31,
 };
 
+struct MassProperties {
+    float mass;   ///< kg
+    Vec3 inertia; ///< kg·m², about the shape's own axes
+};
+/// What the definition gives, or its shape and density.
+MassProperties mass_properties(const BodyDefinition&);
+
 class BodyTable {
 public:
     /// A checked definition becomes a body.
@@ -51,9 +58,9 @@ public:
     std::vector<BodyProperties> properties;
     std::vector<BodyLoad> loads;
     // What only the host knows.
-    std::vector<float> masses;   ///< kg; infinity where contacts cannot push the body
-    std::vector<Vec3> inertias;  ///< principal moments, kg·m²
-    uint bouncing_count = 0;     ///< bodies with a restitution above 0
+    std::vector<float> masses;  ///< kg; infinity where contacts cannot push the body
+    std::vector<Vec3> inertias; ///< principal moments, kg·m²
+    uint bouncing_count = 0;    ///< bodies with a restitution above 0
     uint kinematic_count = 0;
 
 private:

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "body_table.h"
+
 namespace talus::engine {
 namespace {
 
@@ -14,7 +16,9 @@ constexpr float k_smallest_size = 1.0e-4f;     // m
 constexpr float k_largest_value = 1.0e12f;     // forces, masses, inertia: their squares still fit a float
 constexpr float k_smallest_value = 1.0e-30f;   // masses, inertia: their inverses still fit a float
 
-[[noreturn]] void refuse(const std::string& where, const std::string& message) { throw Error(where + ": " + message); }
+[[noreturn]] void refuse(const std::string& where, const std::string& message) {
+    throw Error(where + ": " + message);
+}
 
 void check_range(float value, float lowest, float highest, const std::string& where, const char* what,
                  const char* unit) {
@@ -49,9 +53,12 @@ void check_shape(const Shape& shape, const std::string& where) {
 
 std::string to_words(BodyKind kind) {
     switch (kind) {
-    case BodyKind::Static: return "static";
-    case BodyKind::Rigid: return "rigid";
-    case BodyKind::Kinematic: return "kinematic";
+    case BodyKind::Static:
+        return "static";
+    case BodyKind::Rigid:
+        return "rigid";
+    case BodyKind::Kinematic:
+        return "kinematic";
     }
     return "of unknown kind";
 }
@@ -76,8 +83,8 @@ Pose checked_pose(const Pose& pose, const std::string& where) {
     const auto [x, y, z, w] = pose.rotation;
     const float length = std::sqrt(x * x + y * y + z * z + w * w);
     if (!(std::abs(length - 1.0f) < 1.0e-2f))
-        refuse(where, fmt::format("rotation ({}, {}, {}, {}) has the length {}; a unit quaternion is wanted", x, y, z, w,
-                                  length));
+        refuse(where, fmt::format("rotation ({}, {}, {}, {}) has the length {}; a unit quaternion is wanted", x, y, z,
+                                  w, length));
     return {pose.position, {x / length, y / length, z / length, w / length}};
 }
 
@@ -112,6 +119,13 @@ BodyDefinition checked_definition(const BodyDefinition& definition, const std::s
         check_positive(definition.inertia->y, where, "inertia.y", " kg·m²");
         check_positive(definition.inertia->z, where, "inertia.z", " kg·m²");
     }
+    if (definition.kind == BodyKind::Rigid) {
+        const auto [mass, inertia] = mass_properties(definition);
+        check_range(mass, 1.0e-15f, 1.0e15f, where, "mass", " kg");
+        check_range(inertia.x, 1.0e-24f, 1.0e24f, where, "inertia.x", " kg·m²");
+        check_range(inertia.y, 1.0e-24f, 1.0e24f, where, "inertia.y", " kg·m²");
+        check_range(inertia.z, 1.0e-24f, 1.0e24f, where, "inertia.z", " kg·m²");
+    }
     if (definition.gravity_scale) check_finite(*definition.gravity_scale, where, "gravity_scale");
     check_range(definition.linear_damping, 0.0f, 1.0e6f, where, "linear_damping", " 1/s");
     check_range(definition.angular_damping, 0.0f, 1.0e6f, where, "angular_damping", " 1/s");
@@ -132,10 +146,8 @@ void check_settings(const Settings& settings) {
     check_range(settings.restitution_threshold, 0.0f, 1.0e4f, where, "restitution_threshold", " m/s");
     check_range(settings.max_linear_speed, 1.0e-3f, 1.0e5f, where, "max_linear_speed", " m/s");
     check_range(settings.max_angular_speed, 1.0e-3f, 1.0e5f, where, "max_angular_speed", " rad/s");
-    if (settings.broad_phase > BroadPhase::Brute)
-        refuse(where, "broad_phase is none of SweepAndPrune and Brute");
-    if (settings.stabilisation > Stabilisation::Baumgarte)
-        refuse(where, "stabilisation is none of Soft and Baumgarte");
+    if (settings.broad_phase > BroadPhase::Brute) refuse(where, "broad_phase is none of SweepAndPrune and Brute");
+    if (settings.stabilisation > Stabilisation::Baumgarte) refuse(where, "stabilisation is none of Soft and Baumgarte");
 }
 
 } // namespace talus::engine

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Copies between the devices of a hybrid step. The resolution's device keeps its buffers in host memory, so each copy is
-// one transfer of the other device.
+// Copies between the devices of a hybrid step. The resolution's device keeps its buffers in host memory, so each copy
+// is one transfer of the other device.
 #include "hand_over.h"
 
 #include "step.h"
@@ -30,7 +30,7 @@ void hand_over_bodies(Device& from, Device& to, const StepPlan& plan) {
     lend(from, to, BufferId::Velocities, plan.body_count);
 }
 
-void hand_over_manifolds(Device& from, Device& to, const StepPlan&) {
+void hand_over_manifolds(Device& from, Device& to) {
     const std::array control{take(to, BufferId::Counters, k_counter_words),
                              take(to, BufferId::Dispatches, k_dispatch_count)};
     from.read(control);
@@ -40,7 +40,7 @@ void hand_over_manifolds(Device& from, Device& to, const StepPlan&) {
     from.read(manifolds);
 }
 
-void hand_over_impulses(Device& from, Device& to, const StepPlan&) {
+void hand_over_impulses(Device& from, Device& to) {
     if (counter(from, k_counter_did_not_fit) != 0) return; // the old ones are still wanted
     const uint pair_count = counter(from, k_counter_old_pair_count);
     lend(from, to, BufferId::OldManifolds, pair_count);

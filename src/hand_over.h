@@ -9,11 +9,11 @@ namespace talus::engine {
 
 struct StepPlan;
 
-/// Poses and velocities, before the broad phase.
+/// Poses, velocities and counters, before the broad phase.
 void hand_over_bodies(Device& from, Device& to, const StepPlan&);
-/// Counters, launches, pairs and manifolds, after the narrow phase. Waits for it.
-void hand_over_manifolds(Device& from, Device& to, const StepPlan&);
+/// Counters, launches and manifolds, after the narrow phase. Waits for it.
+void hand_over_manifolds(Device& from, Device& to);
 /// The solved manifolds, to be the next step's old ones.
-void hand_over_impulses(Device& from, Device& to, const StepPlan&);
+void hand_over_impulses(Device& from, Device& to);
 
 } // namespace talus::engine

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "parameters.h"
 
 namespace talus::engine {
@@ -15,21 +17,21 @@ namespace {
 constexpr uint k_first_bodies = 64;
 constexpr uint k_first_pairs = 256;
 constexpr uint k_first_colours = 8;
+constexpr uint k_most_pairs = 1u << 28; // four points each still have 32-bit indices
 // The ring keeps this many steps' results; one place stays free so that the newest finished step's are still there.
 constexpr std::size_t k_most_pending = k_ring_size - 1;
 // After so many steps launches for colours that none of them needed are given up.
 constexpr uint k_colour_window = 64;
 
 constexpr std::array k_body_buffers{
-    BufferId::Poses,      BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
-    BufferId::Aabbs,      BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
-    BufferId::SortedAabbs,
-    BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,
+    BufferId::Poses,       BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
+    BufferId::Aabbs,       BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
+    BufferId::SortedAabbs, BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,
 };
 
 constexpr std::array k_pair_buffers{
-    BufferId::Pairs,           BufferId::OldManifolds,    BufferId::Manifolds,   BufferId::Uncoloured,
-    BufferId::ManifoldKeys, BufferId::ManifoldOrder,   BufferId::Constraints,
+    BufferId::Pairs,        BufferId::OldManifolds,  BufferId::Manifolds,   BufferId::Uncoloured,
+    BufferId::ManifoldKeys, BufferId::ManifoldOrder, BufferId::Constraints,
 };
 
 constexpr std::array k_point_buffers{
@@ -38,7 +40,9 @@ constexpr std::array k_point_buffers{
     BufferId::ConstraintPoints,
 };
 
-uint with_headroom(uint demand) { return demand + demand / 4; }
+uint with_headroom(uint demand) {
+    return demand + demand / 4;
+}
 
 } // namespace
 
@@ -47,12 +51,16 @@ Simulation::Simulation(const WorldOptions& options) {
     std::string why = "asked for";
     if (kind == DeviceKind::Auto) {
         const std::vector<GlProbe> probes = probe_gl();
-        const auto hardware = std::ranges::find_if(probes, [](const GlProbe& p) { return !p.software && !p.info.name.empty(); });
+        const auto hardware =
+            std::ranges::find_if(probes, [](const GlProbe& p) { return !p.software && !p.info.name.empty(); });
         const bool has_gpu = options.gl_context == GlContext::Current || hardware != probes.end();
         kind = has_gpu ? DeviceKind::Gpu : DeviceKind::Cpu;
-        why = has_gpu ? "there is a GPU" : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
-                                              : probes.front().info.name.empty() ? probes.front().info.why
-                                                                                 : "OpenGL runs in software here (" + probes.front().info.name + ")");
+        why = has_gpu
+                  ? "there is a GPU"
+                  : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
+                                            : probes.front().info.name.empty()
+                                                ? probes.front().info.why
+                                                : "OpenGL runs in software here (" + probes.front().info.name + ")");
     }
     if (kind != DeviceKind::Cpu) gpu = make_gl_device(options.gl_context, options.profile);
     if (kind != DeviceKind::Gpu) cpu = make_cpu_device(options.threads, options.profile);
@@ -91,20 +99,25 @@ void Simulation::grow_everywhere(BufferId buffer, std::size_t elements) {
 
 void Simulation::reserve_bodies(uint count) {
     if (count <= body_capacity) return;
-    body_capacity = std::max(count, with_headroom(body_capacity));
+    const uint capacity = std::max(count, with_headroom(body_capacity));
     for (const BufferId buffer : k_body_buffers)
-        grow_everywhere(buffer, body_capacity);
-    grow_everywhere(BufferId::BodyColours, std::size_t{4} * body_capacity);
+        grow_everywhere(buffer, capacity);
+    grow_everywhere(BufferId::BodyColours, std::size_t{4} * capacity);
+    body_capacity = capacity;
 }
 
 void Simulation::reserve_pairs(uint count) {
-    plan.pair_capacity = std::max(count, plan.pair_capacity);
-    plan.table_size = std::bit_ceil(2 * plan.pair_capacity);
+    if (count > k_most_pairs)
+        throw Error(fmt::format("{} pairs of bodies are too many; at most {} are allowed", count, k_most_pairs));
+    const uint capacity = std::max(count, plan.pair_capacity);
+    const uint table_size = std::bit_ceil(2 * capacity);
     for (const BufferId buffer : k_pair_buffers)
-        grow_everywhere(buffer, plan.pair_capacity);
+        grow_everywhere(buffer, capacity);
     for (const BufferId buffer : k_point_buffers)
-        grow_everywhere(buffer, std::size_t{4} * plan.pair_capacity);
-    grow_everywhere(BufferId::PairTable, plan.table_size);
+        grow_everywhere(buffer, std::size_t{4} * capacity);
+    grow_everywhere(BufferId::PairTable, table_size);
+    plan.pair_capacity = capacity; // only now: a buffer may have no room
+    plan.table_size = table_size;
 }
 
 void Simulation::write_bytes(BufferId buffer, std::size_t offset, std::span<const std::byte> bytes) {
@@ -112,7 +125,9 @@ void Simulation::write_bytes(BufferId buffer, std::size_t offset, std::span<cons
     if (placement.hybrid()) placement.detection->write(buffer, offset, bytes);
 }
 
-void Simulation::set_settings(const Settings& wanted) { settings = wanted; }
+void Simulation::set_settings(const Settings& wanted) {
+    settings = wanted;
+}
 
 void Simulation::step(const Population& population, bool with_poses) {
     poll();
@@ -130,7 +145,7 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.iterations = passes.iterations;
     now.relax = passes.relax;
     now.restitution = population.some_bounce;
-    now.by_island = population.slots <= k_island_bodies;
+    now.by_island = population.slots <= k_island_bodies && placement.resolution->loops_freely();
     now.one_island = population.some_kinematic || !placement.resolution->runs_groups_at_once();
     return now;
 }
@@ -186,7 +201,7 @@ void Simulation::finish_oldest() {
         for (std::size_t i = 0; i < detection_ms.size(); ++i)
             report.stage_ms[i] += detection_ms[i];
     }
-    report.step_ms = std::accumulate(stage_ms.begin(), stage_ms.end(), 0.0);
+    report.step_ms = std::accumulate(report.stage_ms.begin(), report.stage_ms.end(), 0.0);
     follow_colours(report.colours, report.overflow_manifolds);
 }
 
@@ -200,13 +215,21 @@ void Simulation::follow_colours(uint colours, uint overflow) {
     window_steps = window_colours = 0;
 }
 
+void Simulation::make_room_for_pairs(uint demand) {
+    try {
+        reserve_pairs(with_headroom(demand));
+    } catch (const Error&) {
+        reserve_pairs(demand);
+    }
+}
+
 void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
-    if ((reasons & k_fit_pairs) != 0) reserve_pairs(with_headroom(counters[k_counter_pair_demand]));
-    if ((reasons & k_fit_colours) != 0) {
+    const uint pair_demand = counters[k_counter_pair_demand];
+    if ((reasons & k_fit_colours) != 0)
         follow_colours(counters[k_counter_colour_demand], counters[k_counter_overflow_count]);
-    }
     ++growths;
+    newest_has_poses = false; // the ring goes on, and soon has no room for that frame
 
     // The steps behind it changed nothing either, but each has exchanged the manifolds with the old ones.
     const std::deque<Pending> again = std::exchange(pending, {});
@@ -218,6 +241,8 @@ void Simulation::redo(std::span<const uint> counters) {
     }
     constexpr uint fits = 0;
     device.write(BufferId::Counters, k_counter_did_not_fit * sizeof(uint), std::as_bytes(std::span(&fits, 1)));
+    // Where there is no room, the error leaves the world as it was before these steps.
+    if ((reasons & k_fit_pairs) != 0) make_room_for_pairs(pair_demand);
     for (const Pending& entry : again)
         enqueue(entry);
 }

@@ -63,6 +63,7 @@ private:
     void enqueue(const Pending&);
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
+    void make_room_for_pairs(uint demand);
     void redo(std::span<const uint> counters);
     void follow_colours(uint colours, uint overflow);
 

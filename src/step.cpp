@@ -13,14 +13,22 @@ namespace talus::engine {
 void run_stage(Device& device, Stage stage, const StepPlan& plan) {
     device.begin_stage(stage);
     switch (stage) {
-    case Stage::BroadPhase: return broad_phase(device, plan);           // world bounding boxes -> candidate pairs
-    case Stage::NarrowPhase: return narrow_phase(device, plan);         // pairs -> manifolds, old impulses matched
-    case Stage::ConstraintGraph: return constraint_graph(device, plan); // manifolds -> batches without shared bodies
-    case Stage::Prepare: return prepare(device);                        // effective masses
-    case Stage::Solve: return solve(device, plan);                      // sub-steps: velocities and movements
-    case Stage::StoreImpulses: return store_impulses(device);           // for the next step's warm start
-    case Stage::Finish: return finish(device);                          // new poses
-    case Stage::count: break;
+    case Stage::BroadPhase:
+        return broad_phase(device, plan); // world bounding boxes -> candidate pairs
+    case Stage::NarrowPhase:
+        return narrow_phase(device, plan); // pairs -> manifolds, old impulses matched
+    case Stage::ConstraintGraph:
+        return constraint_graph(device, plan); // manifolds -> batches without shared bodies
+    case Stage::Prepare:
+        return prepare(device); // effective masses
+    case Stage::Solve:
+        return solve(device, plan); // sub-steps: velocities and movements
+    case Stage::StoreImpulses:
+        return store_impulses(device); // for the next step's warm start
+    case Stage::Finish:
+        return finish(device); // new poses
+    case Stage::count:
+        break;
     }
 }
 
@@ -28,14 +36,13 @@ Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses) {
     if (placement.hybrid()) hand_over_bodies(*placement.resolution, *placement.detection, plan);
     for (std::size_t i = 0; i < k_stage_count; ++i) {
         const Stage stage{static_cast<int>(i)};
-        if (placement.hybrid() && stage == Stage::ConstraintGraph)
-            hand_over_manifolds(*placement.detection, *placement.resolution, plan);
+        if (placement.hybrid() && stage == Stage::ConstraintGraph) {
+            hand_over_manifolds(*placement.detection, *placement.resolution);
+            placement.detection->end_step(false); // the tickets of the two devices go together
+        }
         run_stage(placement.of(stage), stage, plan);
     }
-    if (placement.hybrid()) {
-        hand_over_impulses(*placement.resolution, *placement.detection, plan);
-        placement.detection->end_step(false); // the tickets of the two devices go together
-    }
+    if (placement.hybrid()) hand_over_impulses(*placement.resolution, *placement.detection);
     return placement.resolution->end_step(with_poses);
 }
 

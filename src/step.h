@@ -8,8 +8,8 @@ namespace talus::engine {
 
 /// What the host knows of the bodies.
 struct Population {
-    uint slots = 0;               ///< body slots in use, holes included
-    bool some_bounce = false;     ///< there is a restitution above 0
+    uint slots = 0;           ///< body slots in use, holes included
+    bool some_bounce = false; ///< there is a restitution above 0
     bool some_kinematic = false;
 };
 
@@ -22,7 +22,8 @@ struct StepPlan {
     uint colour_capacity = 0; ///< colours that get launches
     bool overflow = false;    ///< the overflow set gets launches
     bool by_island = false;   ///< small enough for one work group an island
-    bool one_island = false;  ///< islands are not told apart: it would not pay, or a kinematic body may be part of several
+    bool one_island =
+        false; ///< islands are not told apart: it would not pay, or a kinematic body may be part of several
     uint substeps = 0;
     uint iterations = 0;
     bool relax = false;

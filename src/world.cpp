@@ -30,8 +30,8 @@ struct World::Impl {
         if (table.contains(id)) return id.index;
         const bool known = id.index < table.slot_count();
         throw Error(fmt::format("{}: body {} (generation {}) {}", call, id.index, id.generation,
-                                known ? "was removed" : fmt::format("is not known; the world has {} bodies",
-                                                                    table.body_count())));
+                                known ? "was removed"
+                                      : fmt::format("is not known; the world has {} bodies", table.body_count())));
     }
 
     /// The slot of a body that forces move.
@@ -64,6 +64,13 @@ struct World::Impl {
         table.mark(slot, what);
     }
 
+    /// For giving a body a velocity: one that was frozen moves again.
+    void thaw(uint slot) {
+        touch(slot, k_dirty_pose | k_dirty_velocity);
+        table.poses[slot].flags = 0;
+        table.velocities[slot].inverse_mass = table.properties[slot].inverse_mass;
+    }
+
     void upload_changes() {
         if (!table.has_changes()) return;
         simulation.settle();
@@ -81,9 +88,8 @@ struct World::Impl {
     }
 
     /// Writes each run of neighbouring changed slots at once.
-    template <typename T>
-    void upload(const std::vector<std::pair<uint, std::uint8_t>>& changes, std::uint8_t what, BufferId buffer,
-                const std::vector<T>& records) {
+    template <typename T> void upload(const std::vector<std::pair<uint, std::uint8_t>>& changes, std::uint8_t what,
+                                      BufferId buffer, const std::vector<T>& records) {
         for (std::size_t i = 0; i < changes.size();) {
             if ((changes[i].second & what) == 0) {
                 ++i;
@@ -121,6 +127,7 @@ struct World::Impl {
     std::uint64_t table_step = 0; ///< the step whose poses and velocities the table holds
     uint device_slots = 0;        ///< body slots that the device knows of
     bool poses_wanted = false;
+    std::vector<std::uint64_t> steps_before; ///< steps made before each slot's body was added
 };
 
 namespace {
@@ -134,7 +141,9 @@ BodyDefinition checked(const BodyDefinition& definition, const std::string& wher
     return checked_definition(definition, where);
 }
 
-std::string name_of(const char* call, BodyId id) { return fmt::format("{}: body {}", call, id.index); }
+std::string name_of(const char* call, BodyId id) {
+    return fmt::format("{}: body {}", call, id.index);
+}
 
 } // namespace
 
@@ -146,18 +155,24 @@ World& World::operator=(World&&) noexcept = default;
 
 // ---- bodies ----
 
-BodyId World::add(const BodyDefinition& definition) { return add(std::span(&definition, 1)).front(); }
+BodyId World::add(const BodyDefinition& definition) {
+    return add(std::span(&definition, 1)).front();
+}
 
 std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
     std::vector<BodyDefinition> all;
     all.reserve(definitions.size());
     for (std::size_t i = 0; i < definitions.size(); ++i)
-        all.push_back(checked(definitions[i], definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
+        all.push_back(
+            checked(definitions[i], definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
     impl_->refresh();
     std::vector<BodyId> ids;
     ids.reserve(all.size());
-    for (const BodyDefinition& definition : all)
+    for (const BodyDefinition& definition : all) {
         ids.push_back(impl_->table.add(definition));
+        impl_->steps_before.resize(impl_->table.slot_count());
+        impl_->steps_before[ids.back().index] = step_count();
+    }
     return ids;
 }
 
@@ -167,17 +182,29 @@ void World::remove(BodyId id) {
     impl_->table.remove(id);
 }
 
-bool World::contains(BodyId id) const noexcept { return impl_->table.contains(id); }
-std::size_t World::body_count() const noexcept { return impl_->table.body_count(); }
+bool World::contains(BodyId id) const noexcept {
+    return impl_->table.contains(id);
+}
+std::size_t World::body_count() const noexcept {
+    return impl_->table.body_count();
+}
 
 std::vector<BodyId> World::bodies() const {
     return impl_->for_present<BodyId>([&](uint slot) { return impl_->table.id_of(slot); });
 }
 
-BodyKind World::kind(BodyId id) const { return impl_->table.kind_of(impl_->slot_of(id, "kind")); }
-Shape World::shape(BodyId id) const { return unpack_shape(impl_->table.shapes[impl_->slot_of(id, "shape")]); }
-float World::mass(BodyId id) const { return impl_->table.masses[impl_->slot_of(id, "mass")]; }
-Vec3 World::inertia(BodyId id) const { return impl_->table.inertias[impl_->slot_of(id, "inertia")]; }
+BodyKind World::kind(BodyId id) const {
+    return impl_->table.kind_of(impl_->slot_of(id, "kind"));
+}
+Shape World::shape(BodyId id) const {
+    return unpack_shape(impl_->table.shapes[impl_->slot_of(id, "shape")]);
+}
+float World::mass(BodyId id) const {
+    return impl_->table.masses[impl_->slot_of(id, "mass")];
+}
+Vec3 World::inertia(BodyId id) const {
+    return impl_->table.inertias[impl_->slot_of(id, "inertia")];
+}
 
 Pose World::pose(BodyId id) const {
     const uint slot = impl_->slot_of(id, "pose");
@@ -188,10 +215,8 @@ Pose World::pose(BodyId id) const {
 void World::set_pose(BodyId id, const Pose& pose) {
     const uint slot = impl_->slot_of(id, "set_pose");
     const Pose wanted = checked_pose(pose, name_of("set_pose", id));
-    impl_->touch(slot, k_dirty_pose | k_dirty_velocity);
-    BodyTable& table = impl_->table;
-    table.poses[slot] = {to_glm(wanted.position), 0, to_glm(wanted.rotation)};
-    table.velocities[slot].inverse_mass = table.properties[slot].inverse_mass; // a frozen body thaws
+    impl_->thaw(slot);
+    impl_->table.poses[slot] = {to_glm(wanted.position), 0, to_glm(wanted.rotation)};
 }
 
 Velocity World::velocity(BodyId id) const {
@@ -203,10 +228,10 @@ Velocity World::velocity(BodyId id) const {
 void World::set_velocity(BodyId id, const Velocity& velocity) {
     const uint slot = impl_->slot_of(id, "set_velocity");
     check_velocity(velocity, name_of("set_velocity", id));
-    if (kind(id) == BodyKind::Static) throw Error(name_of("set_velocity", id) + " is static; make it kinematic to move it");
-    impl_->touch(slot, k_dirty_pose | k_dirty_velocity);
+    if (kind(id) == BodyKind::Static)
+        throw Error(name_of("set_velocity", id) + " is static; make it kinematic to move it");
+    impl_->thaw(slot);
     BodyTable& table = impl_->table;
-    table.poses[slot].flags = 0;
     table.velocities[slot] = {to_glm(velocity.linear), table.properties[slot].inverse_mass, to_glm(velocity.angular),
                               0.0f};
 }
@@ -245,8 +270,12 @@ void World::add_torque(BodyId id, Vec3 torque) {
 void World::add_impulse(BodyId id, Vec3 impulse) {
     const uint slot = impl_->rigid_slot_of(id, "add_impulse");
     check_finite(impulse, name_of("add_impulse", id), "impulse");
-    impl_->touch(slot, k_dirty_velocity);
-    impl_->table.velocities[slot].linear += to_glm(impulse) * impl_->table.properties[slot].inverse_mass;
+    impl_->refresh();
+    BodyTable& table = impl_->table;
+    const vec3 linear = table.velocities[slot].linear + to_glm(impulse) * table.properties[slot].inverse_mass;
+    check_finite(from_glm(linear), name_of("add_impulse", id), "velocity after the impulse");
+    impl_->thaw(slot);
+    table.velocities[slot].linear = linear;
 }
 
 void World::add_impulse(BodyId id, Vec3 impulse, Vec3 point) {
@@ -259,11 +288,13 @@ void World::add_impulse(BodyId id, Vec3 impulse, Vec3 point) {
 void World::add_angular_impulse(BodyId id, Vec3 impulse) {
     const uint slot = impl_->rigid_slot_of(id, "add_angular_impulse");
     check_finite(impulse, name_of("add_angular_impulse", id), "angular impulse");
-    impl_->touch(slot, k_dirty_velocity);
+    impl_->refresh();
     BodyTable& table = impl_->table;
-    const BodyInertia inertia =
-        world_inertia(table.poses[slot].rotation, table.properties[slot].inverse_inertia, true);
-    table.velocities[slot].angular += multiply_inertia(inertia, to_glm(impulse));
+    const BodyInertia inertia = world_inertia(table.poses[slot].rotation, table.properties[slot].inverse_inertia, true);
+    const vec3 angular = table.velocities[slot].angular + multiply_inertia(inertia, to_glm(impulse));
+    check_finite(from_glm(angular), name_of("add_angular_impulse", id), "angular velocity after the impulse");
+    impl_->thaw(slot);
+    table.velocities[slot].angular = angular;
 }
 
 float World::gravity_scale(BodyId id) const {
@@ -295,9 +326,15 @@ void World::set_material(BodyId id, const Material& material) {
 
 // ---- time ----
 
-void World::step(std::uint32_t count) { impl_->step(count); }
-void World::wait() const { impl_->simulation.settle(); }
-std::uint64_t World::step_count() const noexcept { return impl_->simulation.step_count(); }
+void World::step(std::uint32_t count) {
+    impl_->step(count);
+}
+void World::wait() const {
+    impl_->simulation.settle();
+}
+std::uint64_t World::step_count() const noexcept {
+    return impl_->simulation.step_count();
+}
 
 // ---- results ----
 
@@ -330,8 +367,8 @@ std::vector<Contact> World::contacts() const {
     for (uint i = 0; i < pair_count; ++i) {
         const Manifold& manifold = manifolds[i];
         if (manifold.point_count == 0 || !impl_->both_present(manifold.body_a, manifold.body_b)) continue;
-        Contact contact{impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b),
-                        from_glm(manifold.normal), {}};
+        Contact contact{
+            impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b), from_glm(manifold.normal), {}};
         for (std::size_t k = 0; k < manifold.point_count; ++k) {
             const ManifoldPoint& point = points[std::size_t{4} * i + k];
             contact.points.push_back({from_glm(impl_->table.poses[manifold.body_b].position + point.anchor_b),
@@ -371,7 +408,9 @@ std::uint64_t World::state_hash() const {
     return hash;
 }
 
-void World::keep_poses_coming(bool wanted) { impl_->poses_wanted = wanted; }
+void World::keep_poses_coming(bool wanted) {
+    impl_->poses_wanted = wanted;
+}
 
 World::PoseFrame World::newest_poses() const {
     impl_->simulation.poll();
@@ -379,18 +418,28 @@ World::PoseFrame World::newest_poses() const {
     PoseFrame frame;
     if (poses.empty()) return frame;
     frame.step = impl_->simulation.report().step;
-    for (uint slot = 0; slot < std::min<std::size_t>(poses.size(), impl_->table.slot_count()); ++slot)
-        if (impl_->table.is_present(slot)) frame.poses.push_back(from_record(poses[slot]));
+    const BodyTable& table = impl_->table;
+    for (uint slot = 0; slot < std::min<std::size_t>(poses.size(), table.slot_count()); ++slot) {
+        if (!table.is_present(slot) || impl_->steps_before[slot] >= frame.step) continue;
+        frame.bodies.push_back(table.id_of(slot));
+        frame.poses.push_back(from_record(poses[slot]));
+    }
     return frame;
 }
 
 // ---- the rest ----
 
-const Settings& World::settings() const noexcept { return impl_->settings; }
+const Settings& World::settings() const noexcept {
+    return impl_->settings;
+}
 
-void World::set_settings(const Settings& settings) { impl_->set_settings(checked(settings)); }
+void World::set_settings(const Settings& settings) {
+    impl_->set_settings(checked(settings));
+}
 
-const DeviceInfo& World::device() const noexcept { return impl_->simulation.device(); }
+const DeviceInfo& World::device() const noexcept {
+    return impl_->simulation.device();
+}
 
 MemoryUse World::memory() const noexcept {
     const BodyTable& table = impl_->table;
@@ -422,9 +471,13 @@ GlBuffers World::gl_buffers() const {
     return names;
 }
 
-void World::make_gl_current() const { impl_->simulation.detection_device().make_current(); }
+void World::make_gl_current() const {
+    impl_->simulation.detection_device().make_current();
+}
 
-std::span<const char* const> stage_names() noexcept { return k_stage_names; }
+std::span<const char* const> stage_names() noexcept {
+    return k_stage_names;
+}
 
 std::vector<DeviceInfo> list_devices() {
     std::vector<DeviceInfo> devices;

@@ -268,7 +268,10 @@ TEST(Math, friction_stays_in_a_round_cone) {
         const float limit = samples.number(0.0f, 4.0f);
         const float impulse_1 = samples.number(-5.0f, 5.0f), impulse_2 = samples.number(-5.0f, 5.0f);
         const float v1 = samples.number(-5.0f, 5.0f), v2 = samples.number(-5.0f, 5.0f);
-        const vec2 held = solve_friction_rows(vec2(impulse_1, impulse_2), vec2(2.0f), vec2(v1, v2), limit);
+        const vec3 rows = solve_friction_rows(vec3(impulse_1, impulse_2, 0.0f), vec3(2.0f), vec3(v1, v2, 9.0f),
+                                              Pressure{limit, 0.0f});
+        ASSERT_EQ(rows.z, 0.0f) << "a single point does not hold a twist";
+        const vec2 held(rows.x, rows.y);
         const vec2 free(impulse_1 - 2.0f * v1, impulse_2 - 2.0f * v2);
         ASSERT_LE(glm::length(held), limit * 1.00001f);
         ASSERT_NEAR(glm::length(held), std::min(limit, glm::length(free)), 1e-5f * (1.0f + limit));
@@ -283,10 +286,11 @@ TEST(Math, friction_points_against_the_sliding) {
         const float mass_1 = samples.number(0.5f, 4.0f), mass_2 = samples.number(0.5f, 4.0f);
         const float angle = samples.number(-3.14f, 3.14f);
         const vec2 sliding(std::cos(angle), std::sin(angle));
-        vec2 impulse(0.0f);
+        vec3 impulse(0.0f);
         for (int pass = 0; pass < 50; ++pass)
-            impulse = solve_friction_rows(impulse, vec2(mass_1, mass_2), sliding, 0.3f);
-        ASSERT_NEAR(glm::dot(impulse, sliding), -0.3f, 1e-5f);
+            impulse =
+                solve_friction_rows(impulse, vec3(mass_1, mass_2, 1.0f), vec3(sliding, 0.0f), Pressure{0.3f, 0.2f});
+        ASSERT_NEAR(glm::dot(vec2(impulse.x, impulse.y), sliding), -0.3f, 1e-5f);
     }
 }
 

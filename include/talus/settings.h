@@ -38,8 +38,8 @@ struct Settings {
     Vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s²
     float dt = 1.0f / 60.0f;          ///< s, the length of one step
     Stabilisation stabilisation = Stabilisation::Soft;
-    std::uint32_t substeps = 4;       ///< soft: sub-steps a step; not used by Baumgarte
-    std::uint32_t iterations = 1;     ///< solver passes: a sub-step (soft) or a step (Baumgarte; set about 10 there)
+    std::uint32_t substeps = 4;          ///< soft: sub-steps a step; not used by Baumgarte
+    std::uint32_t iterations = 1;        ///< solver passes: a sub-step (soft) or a step (Baumgarte; set about 10 there)
     float contact_hertz = 30.0f;         ///< soft: stiffness of a contact, Hz; capped at a quarter of the sub-step rate
     float contact_damping_ratio = 10.0f; ///< soft: damping of a contact
     float contact_push_speed = 3.0f;     ///< m/s; the fastest that overlap is pushed apart

@@ -95,9 +95,9 @@ struct CollisionPair {
 
 /// One touching point between two bodies, as the last step solved it.
 struct ContactPoint {
-    Vec3 position;              ///< world space, midway between the two surfaces (m)
-    float separation = 0.0f;    ///< m; negative where the bodies overlap
-    float normal_impulse = 0.0f;///< N·s, over the last sub-step
+    Vec3 position;               ///< world space, midway between the two surfaces (m)
+    float separation = 0.0f;     ///< m; negative where the bodies overlap
+    float normal_impulse = 0.0f; ///< N·s, over the last sub-step
 };
 
 /// All that happens between two touching bodies: up to four points that share a normal (the thesis's ContactManifold).

@@ -16,13 +16,13 @@ struct StepReport {
     std::uint64_t step = 0; ///< how many steps the world had made with this one
     std::uint32_t pairs = 0;
     std::uint32_t manifolds = 0;
-    std::uint32_t contacts = 0; ///< contact points
-    std::uint32_t colours = 0;  ///< batches of the constraint graph
+    std::uint32_t contacts = 0;           ///< contact points
+    std::uint32_t colours = 0;            ///< batches of the constraint graph
     std::uint32_t overflow_manifolds = 0; ///< found no colour, solved one at a time
-    std::uint32_t frozen_bodies = 0; ///< bodies whose velocity became non-finite, in all steps so far
-    std::uint32_t growths = 0;       ///< steps that were done again with larger buffers, in all steps so far
-    double step_ms = 0.0;            ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
-    std::vector<double> stage_ms;    ///< one a stage, in the order of stage_names(); empty unless profiled
+    std::uint32_t frozen_bodies = 0;      ///< bodies whose velocity became non-finite, in all steps so far
+    std::uint32_t growths = 0;            ///< steps that were done again with larger buffers, in all steps so far
+    double step_ms = 0.0;         ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
+    std::vector<double> stage_ms; ///< one a stage, in the order of stage_names(); empty unless profiled
 };
 
 /// What runs the step, in words for people.
@@ -49,7 +49,7 @@ struct MemoryUse {
 struct GlBuffers {
     std::uint32_t poses = 0;
     std::uint32_t shapes = 0;
-    std::uint32_t aabbs = 0;     ///< 32 bytes a body: vec3 lower, float, vec3 upper, float
+    std::uint32_t aabbs = 0; ///< 32 bytes a body: vec3 lower, float, vec3 upper, float
     std::uint32_t pairs = 0;
     std::uint32_t manifolds = 0;
     std::uint32_t contact_points = 0;
@@ -83,7 +83,7 @@ public:
     std::vector<BodyId> bodies() const;
     BodyKind kind(BodyId) const;
     Shape shape(BodyId) const;
-    float mass(BodyId) const; ///< kg; infinity for static and kinematic bodies
+    float mass(BodyId) const;   ///< kg; infinity for static and kinematic bodies
     Vec3 inertia(BodyId) const; ///< principal moments, kg·m²
 
     Pose pose(BodyId) const;
@@ -125,11 +125,13 @@ public:
 
     // ---- results without waiting ----
 
-    /// The newest finished step's poses in the order of `bodies()`, as it left through the ring of mapped buffers, and
-    /// the number of that step; empty before the first one arrives. `keep_poses_coming(true)` turns the ring on.
+    /// The newest finished step's poses as they left through the ring of mapped buffers, and the number of that step;
+    /// empty before the first one arrives, and again while a step is done anew with larger buffers.
+    /// `keep_poses_coming(true)` turns the ring on.
     struct PoseFrame {
         std::uint64_t step = 0;
-        std::vector<Pose> poses;
+        std::vector<BodyId> bodies; ///< those that were there in that step and still are
+        std::vector<Pose> poses;    ///< one each
     };
     void keep_poses_coming(bool);
     PoseFrame newest_poses() const;

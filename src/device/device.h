@@ -88,9 +88,12 @@ public:
     virtual ~Device() = default;
 
     virtual DeviceInfo info() const = 0;
-    /// Whether work groups run side by side, so that work which is divided among them is done sooner. Not so on the CPU,
-    /// nor on an OpenGL renderer in software.
+    /// Whether work groups run side by side, so that work which is divided among them is done sooner. Not so on the
+    /// CPU, nor on an OpenGL renderer in software.
     virtual bool runs_groups_at_once() const { return false; }
+    /// Whether a kernel's loops may be long. Mesa's renderers in software end an invocation's loops after 65,535 rounds
+    /// in all, without a word.
+    virtual bool loops_freely() const { return true; }
 
     /// Gives a buffer room for at least `bytes`; the old content stays at its start, the rest is zero.
     virtual void grow(BufferId, std::size_t bytes) = 0;
@@ -107,8 +110,8 @@ public:
 
     /// Marks the start of a stage for profilers and debuggers; the one before it ends.
     virtual void begin_stage(Stage) = 0;
-    /// Ends a step: its counters, and the poses if asked for, leave for the host. Waits only if k_ring_size steps are on
-    /// their way already.
+    /// Ends a step: its counters, and the poses if asked for, leave for the host. Waits only if k_ring_size steps are
+    /// on their way already.
     virtual Ticket end_step(bool with_poses) = 0;
     virtual bool finished(Ticket) const = 0;
     virtual void wait(Ticket) = 0;

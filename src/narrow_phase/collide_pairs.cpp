@@ -42,8 +42,8 @@ void collide_pair(CpuState& state, uint pair_index) {
     const BodyPose& pose_b = state.poses[pair.body_b];
     const vec3 offset = pose_b.position - pose_a.position;
     const float max_separation = state.aabbs[pair.body_a].margin + state.aabbs[pair.body_b].margin;
-    const ContactGeometry g = collide_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b],
-                                             old_axis, max_separation);
+    const ContactGeometry g =
+        collide_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b], old_axis, max_separation);
     Manifold& manifold = state.manifolds[pair_index];
     manifold = make_manifold(pair, g, old_colour, state.properties[pair.body_a], state.properties[pair.body_b]);
     if (old_index != k_none) manifold = carry_friction(manifold, state.old_manifolds[old_index]);
@@ -51,8 +51,7 @@ void collide_pair(CpuState& state, uint pair_index) {
     const PointMatch match = match_points(g, old_points, g.axis == old_axis);
     for (uint i = 0; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, offset, i);
-        if (match.old_index[i] != k_none)
-            point.normal_impulse = old_records[match.old_index[i]].normal_impulse;
+        if (match.old_index[i] != k_none) point.normal_impulse = old_records[match.old_index[i]].normal_impulse;
         state.manifold_points[std::size_t{4} * pair_index + i] = point;
     }
 }

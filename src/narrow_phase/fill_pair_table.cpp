@@ -14,8 +14,8 @@ static void fill_pair_table_on_cpu(CpuState& state, const Launch&) {
         const Manifold& manifold = state.old_manifolds[pair];
         if (manifold.point_count == 0) return;
         uint slot = hash_pair(manifold.body_a, manifold.body_b) & mask;
-        for (uint expected = k_none;
-             !std::atomic_ref(state.pair_table[slot]).compare_exchange_strong(expected, pair); expected = k_none)
+        for (uint expected = k_none; !std::atomic_ref(state.pair_table[slot]).compare_exchange_strong(expected, pair);
+             expected = k_none)
             slot = (slot + 1) & mask;
     });
 }

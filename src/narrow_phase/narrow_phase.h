@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Narrow phase: candidate pairs -> manifolds of at most four points, with the last step's impulses (thesis, section 3.3).
+// Narrow phase: candidate pairs -> manifolds of at most four points, with the last step's impulses (thesis,
+// section 3.3).
 #pragma once
 
 #include "device/device.h"

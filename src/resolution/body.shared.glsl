@@ -54,7 +54,7 @@ inline vec3 limit_length(vec3 v, float limit)
 
 // Angular velocity after h under no torque, in body axes: Euler's equation I w' = -w x I w by the implicit midpoint
 // rule, which keeps the kinetic energy and the length of the angular momentum. Four rounds of fixed-point iteration
-// reach float precision while |w| h is below about a third.
+// reach float precision while |w| h is below a quarter.
 inline vec3 turn_freely(vec3 w, vec3 inverse_inertia, float h)
 {
     vec3 inertia = vec3(reciprocal(inverse_inertia.x), reciprocal(inverse_inertia.y), reciprocal(inverse_inertia.z));
@@ -119,9 +119,16 @@ inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm
     precise vec3 angular = velocity.angular + multiply_inertia(inertia, load.torque) * p.h;
     float linear_factor = damping_factor(body.linear_damping, p.h);
     float angular_factor = damping_factor(body.angular_damping, p.h);
+    angular = limit_length(angular, p.max_angular_speed);
     vec3 d = body.inverse_inertia;
     if (d.x != d.y || d.y != d.z) {
-        angular = rotate(rotation, turn_freely(rotate_back(rotation, angular), d, p.h));
+        vec3 local = rotate_back(rotation, angular);
+        precise float turn = 4.0f * length3(local) * p.h; // in quarters of a radian
+        uint parts = uint(min(turn, 255.0f)) + 1u;
+        precise float part = p.h * reciprocal(float(parts));
+        for (uint i = 0u; i < parts; i += 1u)
+            local = turn_freely(local, d, part);
+        angular = rotate(rotation, local);
     }
     precise vec3 started_linear = limit_length(scale3(linear, linear_factor), p.max_linear_speed) + warm.linear;
     precise vec3 started_angular = limit_length(scale3(angular, angular_factor), p.max_angular_speed) + warm.angular;

@@ -125,26 +125,7 @@ inline float solve_normal_row(ContactConstraintPoint point, float normal_velocit
     return impulse;
 }
 
-// New accumulated friction impulses, held inside the cone: a circle of radius `limit`. A manifold that slides takes the
-// smaller mass for both directions. With a mass for each, what is left on the rim of the cone does not point against the
-// sliding: a box lost 8 % of its friction on a slope of 35 degrees, and drifted to the side.
-inline vec2 solve_friction_rows(vec2 impulse, vec2 mass, vec2 velocity, float limit)
-{
-    precise float square_limit = limit * limit;
-    precise vec2 stuck = impulse - mass * velocity;
-    precise float stuck_square = stuck.x * stuck.x + stuck.y * stuck.y;
-    if (stuck_square <= square_limit) return stuck;
-
-    float smaller = min(mass.x, mass.y);
-    precise vec2 sliding = impulse - smaller * velocity;
-    precise float square = sliding.x * sliding.x + sliding.y * sliding.y;
-    if (square <= square_limit) return sliding;
-    precise float scale = limit * inverse_sqrt(square);
-    precise vec2 held = sliding * scale;
-    return held;
-}
-
-// What presses a manifold together: the bounds of its friction before the coefficient.
+// What presses a manifold together. Times the coefficient, it is the limit of its friction.
 struct Pressure {
     float force;  // N s: the sum of the normal impulses
     float torque; // N m s: the same, each times its lever
@@ -167,6 +148,37 @@ inline Pressure add_pressure(Pressure p, ContactConstraintPoint point)
     return p;
 }
 
+// New accumulated friction impulses: x and y along the tangents, z the twist. They are held inside an ellipsoid, with the
+// force limit as its radius along the tangents and the torque limit along the twist: a body that spins fast has little
+// friction left against sliding. The surface is Howe and Cutkosky's approximation (1996) of what points of friction
+// spread over the face would do.
+//
+// A manifold that slides takes masses in the ratio of the squared limits, and none above its own. Then what is left on
+// the rim points against the motion, as the ellipsoid's normal does. With the rows' own masses a box lost 8 % of its
+// friction on a slope of 35 degrees, and drifted to the side.
+inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Pressure limit)
+{
+    float inverse_force = limit.force > 0.0f ? reciprocal(limit.force) : 0.0f;
+    float inverse_torque = limit.torque > 0.0f ? reciprocal(limit.torque) : 0.0f;
+    vec3 inverse_radii = vec3(inverse_force, inverse_force, inverse_torque);
+    vec3 held = vec3(limit.force > 0.0f ? 1.0f : 0.0f, limit.force > 0.0f ? 1.0f : 0.0f,
+                     limit.torque > 0.0f ? 1.0f : 0.0f);
+    precise vec3 stuck = (impulse - mass * velocity) * held;
+    vec3 on_sphere = multiply3(stuck, inverse_radii);
+    if (dot3(on_sphere, on_sphere) <= 1.0f) return stuck;
+
+    precise float lever = limit.torque * inverse_force;
+    precise float square_lever = lever * lever;
+    float smaller = min(mass.x, mass.y);
+    if (square_lever > 0.0f) smaller = min(smaller, mass.z * reciprocal(square_lever));
+    precise vec3 sliding_mass = vec3(smaller, smaller, smaller * square_lever);
+    precise vec3 sliding = (impulse - sliding_mass * velocity) * held;
+    on_sphere = multiply3(sliding, inverse_radii);
+    float square = dot3(on_sphere, on_sphere);
+    if (square <= 1.0f) return sliding;
+    return scale3(sliding, inverse_sqrt(square));
+}
+
 // A body pair and its manifold in the midst of a pass of the solver.
 struct ManifoldState {
     VelocityPair velocities;
@@ -181,24 +193,23 @@ inline ManifoldState solve_friction(ManifoldState s, Tangents t, Pressure pressu
     vec3 r_a = s.c.centre_a;
     vec3 r_b = s.c.centre_b;
     vec3 dv = relative_velocity(s.velocities.a, s.velocities.b, r_a, r_b);
-    precise float limit = s.c.friction * pressure.force;
-    vec2 tangent = solve_friction_rows(vec2(s.c.tangent_impulse_1, s.c.tangent_impulse_2),
-                                       vec2(s.c.tangent_mass_1, s.c.tangent_mass_2),
-                                       vec2(dot3(dv, t.t1), dot3(dv, t.t2)), limit);
-    precise float change_1 = tangent.x - s.c.tangent_impulse_1;
-    precise float change_2 = tangent.y - s.c.tangent_impulse_2;
-    precise vec3 sideways = t.t1 * change_1 + t.t2 * change_2;
-    s.c.tangent_impulse_1 = tangent.x;
-    s.c.tangent_impulse_2 = tangent.y;
-    s.velocities = apply_impulse(s.velocities, sideways, r_a, r_b, inertia_a, inertia_b);
-
     precise vec3 spin = s.velocities.b.angular - s.velocities.a.angular;
-    precise float twist_limit = s.c.friction * pressure.torque;
-    precise float wanted = s.c.twist_impulse - s.c.twist_mass * dot3(spin, s.c.normal);
-    float twist = clamp_to(wanted, -twist_limit, twist_limit);
-    precise float change = twist - s.c.twist_impulse;
-    s.c.twist_impulse = twist;
-    s.velocities = apply_twist(s.velocities, s.c.normal, change, inertia_a, inertia_b);
+    precise float force_limit = s.c.friction * pressure.force;
+    precise float torque_limit = s.c.friction * pressure.torque;
+    Pressure limit;
+    limit.force = force_limit;
+    limit.torque = torque_limit;
+    vec3 old = vec3(s.c.tangent_impulse_1, s.c.tangent_impulse_2, s.c.twist_impulse);
+    vec3 mass = vec3(s.c.tangent_mass_1, s.c.tangent_mass_2, s.c.twist_mass);
+    vec3 velocity = vec3(dot3(dv, t.t1), dot3(dv, t.t2), dot3(spin, s.c.normal));
+    vec3 impulse = solve_friction_rows(old, mass, velocity, limit);
+    precise vec3 change = impulse - old;
+    precise vec3 sideways = t.t1 * change.x + t.t2 * change.y;
+    s.c.tangent_impulse_1 = impulse.x;
+    s.c.tangent_impulse_2 = impulse.y;
+    s.c.twist_impulse = impulse.z;
+    s.velocities = apply_impulse(s.velocities, sideways, r_a, r_b, inertia_a, inertia_b);
+    s.velocities = apply_twist(s.velocities, s.c.normal, change.z, inertia_a, inertia_b);
     return s;
 }
 

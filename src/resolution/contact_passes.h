@@ -46,8 +46,7 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint index) 
             p = apply_point_restitution(p, n, c.restitution, inertia_a, inertia_b, state.parameters);
         } else {
             const float separation = current_separation(p.point, approach);
-            p = solve_point(p, n, separation, pass == ContactPass::Solve, soft, inertia_a, inertia_b,
-                            state.parameters);
+            p = solve_point(p, n, separation, pass == ContactPass::Solve, soft, inertia_a, inertia_b, state.parameters);
         }
         points[i] = p.point;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Resolution: manifolds -> velocities and movements, by sequential impulses over coloured batches (thesis, section 3.4).
+// Resolution: manifolds -> velocities and movements, by sequential impulses over coloured batches (thesis,
+// section 3.4).
 #pragma once
 
 #include "device/device.h"

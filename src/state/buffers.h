@@ -48,10 +48,10 @@ namespace talus::engine {
     X(Islands, islands, uint, "u", Result)                                                                             \
     X(BodyColours, body_colours, uint, "u", Scratch)                                                                   \
     X(Uncoloured, uncoloured, uint, "u", Scratch)                                                                      \
-    X(ManifoldKeys, manifold_keys, uint, "u", Result)                                                            \
+    X(ManifoldKeys, manifold_keys, uint, "u", Result)                                                                  \
     X(ManifoldOrder, manifold_order, uint, "u", Result)                                                                \
-    X(SortedManifoldKeys, sorted_manifold_keys, uint, "u", Scratch)                                                               \
-    X(SortedManifoldOrder, sorted_manifold_order, uint, "u", Scratch)                                                                   \
+    X(SortedManifoldKeys, sorted_manifold_keys, uint, "u", Scratch)                                                    \
+    X(SortedManifoldOrder, sorted_manifold_order, uint, "u", Scratch)                                                  \
     X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \

@@ -22,15 +22,35 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
-inline float uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
-inline float min(float a, float b) { return b < a ? b : a; }
-inline float max(float a, float b) { return a < b ? b : a; }
-inline uint min(uint a, uint b) { return b < a ? b : a; }
-inline uint max(uint a, uint b) { return a < b ? b : a; }
-inline float abs(float x) { return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu); }
-inline vec3 min(vec3 a, vec3 b) { return vec3(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)); }
-inline vec3 max(vec3 a, vec3 b) { return vec3(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)); }
-inline vec3 abs(vec3 v) { return vec3(abs(v.x), abs(v.y), abs(v.z)); }
+inline uint floatBitsToUint(float x) {
+    return std::bit_cast<uint>(x);
+}
+inline float uintBitsToFloat(uint x) {
+    return std::bit_cast<float>(x);
+}
+inline float min(float a, float b) {
+    return b < a ? b : a;
+}
+inline float max(float a, float b) {
+    return a < b ? b : a;
+}
+inline uint min(uint a, uint b) {
+    return b < a ? b : a;
+}
+inline uint max(uint a, uint b) {
+    return a < b ? b : a;
+}
+inline float abs(float x) {
+    return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
+}
+inline vec3 min(vec3 a, vec3 b) {
+    return vec3(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z));
+}
+inline vec3 max(vec3 a, vec3 b) {
+    return vec3(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z));
+}
+inline vec3 abs(vec3 v) {
+    return vec3(abs(v.x), abs(v.y), abs(v.z));
+}
 
 } // namespace talus::engine

@@ -25,6 +25,7 @@ public:
 
     DeviceInfo info() const override;
     bool runs_groups_at_once() const override { return !context_->is_software(); }
+    bool loops_freely() const override { return !context_->is_software(); }
     void grow(BufferId, std::size_t bytes) override;
     std::size_t size(BufferId) const override;
     std::uint64_t memory_bytes() const override;
