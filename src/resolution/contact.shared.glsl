@@ -148,6 +148,14 @@ inline Pressure add_pressure(Pressure p, ContactConstraintPoint point)
     return p;
 }
 
+const float k_least_friction = 1.0e-20f; // N s, and N m s
+const float k_most_radii = 1.0e15f;      // that an impulse is taken to lie outside its limit: its square is still a float
+
+inline vec3 limit_each(vec3 v, float limit)
+{
+    return vec3(clamp_to(v.x, -limit, limit), clamp_to(v.y, -limit, limit), clamp_to(v.z, -limit, limit));
+}
+
 // New accumulated friction impulses: x and y along the tangents, z the twist. They are held inside an ellipsoid, with the
 // force limit as its radius along the tangents and the torque limit along the twist: a body that spins fast has little
 // friction left against sliding. The surface is Howe and Cutkosky's approximation (1996) of what points of friction
@@ -158,25 +166,26 @@ inline Pressure add_pressure(Pressure p, ContactConstraintPoint point)
 // friction on a slope of 35 degrees, and drifted to the side.
 inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Pressure limit)
 {
-    float inverse_force = limit.force > 0.0f ? reciprocal(limit.force) : 0.0f;
-    float inverse_torque = limit.torque > 0.0f ? reciprocal(limit.torque) : 0.0f;
+    // Limits too small to matter hold nothing: their inverses would leave the range of a float.
+    float inverse_force = limit.force > k_least_friction ? reciprocal(limit.force) : 0.0f;
+    float inverse_torque = limit.torque > k_least_friction ? reciprocal(limit.torque) : 0.0f;
+    vec3 radii = vec3(inverse_force > 0.0f ? limit.force : 0.0f, inverse_force > 0.0f ? limit.force : 0.0f,
+                      inverse_torque > 0.0f ? limit.torque : 0.0f);
     vec3 inverse_radii = vec3(inverse_force, inverse_force, inverse_torque);
-    vec3 held = vec3(limit.force > 0.0f ? 1.0f : 0.0f, limit.force > 0.0f ? 1.0f : 0.0f,
-                     limit.torque > 0.0f ? 1.0f : 0.0f);
-    precise vec3 stuck = (impulse - mass * velocity) * held;
-    vec3 on_sphere = multiply3(stuck, inverse_radii);
-    if (dot3(on_sphere, on_sphere) <= 1.0f) return stuck;
+    precise vec3 stuck = impulse - mass * velocity;
+    vec3 on_sphere = limit_each(multiply3(stuck, inverse_radii), k_most_radii);
+    if (dot3(on_sphere, on_sphere) <= 1.0f) return multiply3(on_sphere, radii);
 
-    precise float lever = limit.torque * inverse_force;
+    precise float lever = radii.z * inverse_force;
     precise float square_lever = lever * lever;
     float smaller = min(mass.x, mass.y);
     if (square_lever > 0.0f) smaller = min(smaller, mass.z * reciprocal(square_lever));
     precise vec3 sliding_mass = vec3(smaller, smaller, smaller * square_lever);
-    precise vec3 sliding = (impulse - sliding_mass * velocity) * held;
-    on_sphere = multiply3(sliding, inverse_radii);
+    precise vec3 sliding = impulse - sliding_mass * velocity;
+    on_sphere = limit_each(multiply3(sliding, inverse_radii), k_most_radii);
     float square = dot3(on_sphere, on_sphere);
-    if (square <= 1.0f) return sliding;
-    return scale3(sliding, inverse_sqrt(square));
+    if (square > 1.0f) on_sphere = scale3(on_sphere, inverse_sqrt(square));
+    return multiply3(on_sphere, radii);
 }
 
 // A body pair and its manifold in the midst of a pass of the solver.
