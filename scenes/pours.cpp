@@ -19,7 +19,7 @@ constexpr float k_jitter = 0.05f;        // m, to each side of the middle of a c
 constexpr float k_diagonal = 1.733f;     // of a unit cube, rounded up
 constexpr float k_packing = 0.55f;       // of the volume is filled by boxes at rest; random piles reach 0.55 to 0.65
 
-/// Cells for `boxes`, `across` × `across` in a layer and about a third as many layers.
+/// Cells for `boxes`, `across` × `across` in a layer and about a quarter as many layers.
 struct Cells {
     std::uint32_t across = 1;
     std::uint32_t layers = 1;
@@ -27,7 +27,7 @@ struct Cells {
 
     Cells(std::uint32_t boxes, float largest_edge)
         : pitch(std::ceil(10.0f * (k_diagonal * largest_edge + 2.0f * k_jitter)) / 10.0f) {
-        const auto capacity = [](std::uint64_t side) { return side * side * std::max<std::uint64_t>(1, side / 3); };
+        const auto capacity = [](std::uint64_t side) { return side * side * std::max<std::uint64_t>(1, side / 4); };
         while (capacity(across) < boxes)
             ++across;
         layers = (boxes + across * across - 1) / (across * across);
