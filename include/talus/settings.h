@@ -19,7 +19,7 @@ enum class DeviceKind : std::uint32_t {
 
 /// Which OpenGL context the GPU device uses.
 enum class GlContext : std::uint32_t {
-    Own,     ///< one of its own, headless through EGL; no window system needed
+    Own,     ///< one of its own, headless through EGL; no window system needed. Calls leave it current on the thread
     Current, ///< the caller's, current on the calling thread now and in every later call on the world
 };
 
