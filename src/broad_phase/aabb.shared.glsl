@@ -13,7 +13,8 @@ inline float contact_margin(BodyVelocity velocity, BodyShape shape, Parameters p
 }
 
 inline bool is_present(BodyShape shape) { return (shape.type >> 8) != k_kind_absent; }
-inline bool is_movable(BodyShape shape) { return (shape.type >> 8) == k_kind_rigid; }
+inline bool is_movable(BodyShape shape) { return (shape.type >> 8) == k_kind_rigid; } // contacts push it
+inline bool is_mover(BodyShape shape) { return is_movable(shape) || (shape.type >> 8) == k_kind_kinematic; }
 
 inline Aabb compute_aabb(BodyPose pose, BodyVelocity velocity, BodyShape shape, Parameters p)
 {

@@ -6,6 +6,7 @@
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -21,8 +22,7 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    uint kind = shapes[body].type >> 8;
-    if (kind != k_kind_rigid && kind != k_kind_kinematic) return;
+    if (!is_mover(shapes[body])) return;
     loads[body] = no_load();
     BodyPose pose = poses[body];
     if ((pose.flags & k_body_frozen) != 0u) return;

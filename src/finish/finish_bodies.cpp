@@ -10,8 +10,7 @@ namespace talus::engine {
 
 static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
     state.parallel(state.parameters.body_count, [&](uint body) {
-        const uint kind = state.shapes[body].type >> 8;
-        if (kind != k_kind_rigid && kind != k_kind_kinematic) return;
+        if (!is_mover(state.shapes[body])) return;
         state.loads[body] = no_load();
         BodyPose& pose = state.poses[body];
         if ((pose.flags & k_body_frozen) != 0) return;

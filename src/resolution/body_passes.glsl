@@ -12,8 +12,7 @@ layout(std430) buffer WarmStarts { BodyWarmStart warm_starts[]; };
 
 bool moves(uint body)
 {
-    uint kind = shapes[body].type >> 8;
-    return (kind == k_kind_rigid || kind == k_kind_kinematic) && (poses[body].flags & k_body_frozen) == 0u;
+    return is_mover(shapes[body]) && (poses[body].flags & k_body_frozen) == 0u;
 }
 
 void integrate_body_velocity(uint body)

@@ -10,8 +10,7 @@
 namespace talus::engine {
 
 inline bool moves(const CpuState& state, uint body) {
-    const uint kind = state.shapes[body].type >> 8;
-    return (kind == k_kind_rigid || kind == k_kind_kinematic) && (state.poses[body].flags & k_body_frozen) == 0;
+    return is_mover(state.shapes[body]) && (state.poses[body].flags & k_body_frozen) == 0;
 }
 
 inline void integrate_body_velocity(CpuState& state, uint body) {
