@@ -87,9 +87,17 @@ Parameters::Parameters(const SceneInfo& scene, std::string_view text) : info(sce
     }
 }
 
-std::uint32_t Parameters::integer(std::string_view name) const {
+double Parameters::value_of(std::string_view name) const {
     const auto found = std::ranges::find(info.parameters, name, &Parameter::name);
-    return static_cast<std::uint32_t>(values.at(static_cast<std::size_t>(found - info.parameters.begin())));
+    return values.at(static_cast<std::size_t>(found - info.parameters.begin()));
+}
+
+std::uint32_t Parameters::integer(std::string_view name) const {
+    return static_cast<std::uint32_t>(value_of(name));
+}
+
+float Parameters::number(std::string_view name) const {
+    return static_cast<float>(value_of(name));
 }
 
 std::string Parameters::text() const {
