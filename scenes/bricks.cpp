@@ -94,10 +94,10 @@ Scene make_brick_gables(const Parameters& parameters) {
     };
 
     SceneBuilder builder(half_x + k_margin, half_z + k_margin, std::size_t{across} * rows * base * (base + 1) / 2);
-    // Two walls of a row are hit in their middles, at a third and at two thirds of the row; a single one is hit once.
+    // Two walls of each row are hit in their middles, a quarter of the row from its ends; where there is one wall, one.
     const float start_z = -half_z - 0.5f * k_brick.z - k_before - k_sphere;
-    add_rolling_sphere(builder, k_sphere, wall_x(across / 3), start_z, {0.0f, 0.0f, 1.0f});
-    if (across > 1) add_rolling_sphere(builder, k_sphere, wall_x(across - 1 - across / 3), start_z, {0.0f, 0.0f, 1.0f});
+    add_rolling_sphere(builder, k_sphere, wall_x(across / 4), start_z, {0.0f, 0.0f, 1.0f});
+    if (across > 1) add_rolling_sphere(builder, k_sphere, wall_x(across - 1 - across / 4), start_z, {0.0f, 0.0f, 1.0f});
     for (std::uint32_t row = 0; row < rows; ++row)
         for (std::uint32_t wall = 0; wall < across; ++wall)
             for (std::uint32_t course = 0; course < base; ++course)

@@ -9,11 +9,13 @@
 //   w = (cos a, sin a)    across it, outwards
 // The apex is the upper inner corner, where it touches its partner, the mirror image. The lower inner corner, −L u, is
 // its lowest point and stands on what is below. The upper outer corner, t w, is its highest and carries what is above.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
 #include "scenes/builders.h"
 #include "scenes/camera.h"
 #include "scenes/scene_builder.h"
-
-#include <cmath>
 
 namespace talus::scenes {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A row of dominoes along a sine-like bend: their directions swing from side to side, so that the row never meets
 // itself however long it is. The first one is already on its way over.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "scenes/builders.h"
@@ -60,7 +60,7 @@ Scene make_dominoes(const Parameters& parameters) {
     const double middle_x = 0.5 * row.back().x, middle_z = 0.5 * (least + most);
     const auto half_x = static_cast<float>(middle_x + 0.5), half_z = static_cast<float>(0.5 * (most - least) + 0.5);
 
-    constexpr float k_margin = 10.0f; // m of ground around the row
+    constexpr float k_margin = 40.0f; // m of ground around the row
     SceneBuilder builder(half_x + k_margin, half_z + k_margin, row.size());
     for (const Place& place : row) {
         BodyDefinition& domino = builder.add_box(
@@ -69,7 +69,7 @@ Scene make_dominoes(const Parameters& parameters) {
         if (&place == &row.front()) domino.velocity = falling(place.heading);
     }
     return builder.finish(builder.bounds(),
-                          frame({{-half_x, 0.0f, -half_z}, {half_x, k_domino.y, half_z}}, {-0.25f, 0.45f, 1.0f}));
+                          frame({{-half_x, 0.0f, -half_z}, {half_x, k_domino.y, half_z}}, {-1.0f, 0.35f, 0.4f}));
 }
 
 } // namespace talus::scenes

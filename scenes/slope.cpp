@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Flat boxes on a tilted plate. With the friction μ they stay where the tangent of the angle is below μ, and otherwise
 // slide down with g (sin θ − μ cos θ) onto the ground.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
