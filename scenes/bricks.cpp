@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Large structures of bricks in running bond, built to the sizes for which other engines publish figures, and steel
-// spheres that roll into them. Bricks of a course lie 2 cm apart: what carries them is the course below.
+// spheres that roll into them. Bricks of a course lie some centimetres apart: what carries them is the course below.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -16,10 +16,8 @@ namespace talus::scenes {
 namespace {
 
 constexpr Vec3 k_brick{1.0f, 0.5f, 0.5f}; // m
-constexpr double k_gap = 0.02;            // m from brick to brick
-constexpr double k_brick_pitch = k_brick.x + k_gap;
-constexpr float k_margin = 60.0f; // m of ground around what stands on it, for what is hit away
-constexpr float k_speed = 25.0f;  // m/s of the spheres
+constexpr float k_margin = 60.0f;         // m of ground around what stands on it, for what is hit away
+constexpr float k_speed = 25.0f;          // m/s of the spheres
 
 float course_centre(std::uint32_t course) {
     return k_brick.y * (static_cast<float>(course) + 0.5f);
@@ -36,6 +34,7 @@ void add_rolling_sphere(SceneBuilder& builder, float radius, float x, float z, V
 } // namespace
 
 Scene make_brick_ring(const Parameters& parameters) {
+    constexpr double k_gap = 0.02;                // m from brick to brick and from ring to ring
     constexpr std::uint32_t k_courses_a_step = 4; // the wall gets one ring thinner on its outside after each four
     constexpr float k_sphere = 4.0f;              // m, radius
     constexpr float k_before = 12.5f;             // m that it rolls before it hits: half a second
@@ -48,7 +47,8 @@ Scene make_brick_ring(const Parameters& parameters) {
     // published count. The rings themselves are 2 cm apart, since a brick's ends reach 1.6 mm beyond the circle of its
     // outer face.
     const auto bricks_in = [&](std::uint32_t ring) {
-        return static_cast<std::uint32_t>(2.0 * std::numbers::pi * (inner_radius + ring * k_brick.z) / k_brick_pitch);
+        return static_cast<std::uint32_t>(2.0 * std::numbers::pi * (inner_radius + ring * k_brick.z) /
+                                          (k_brick.x + k_gap));
     };
 
     std::size_t count = 0;
@@ -78,6 +78,8 @@ Scene make_brick_ring(const Parameters& parameters) {
 }
 
 Scene make_brick_gables(const Parameters& parameters) {
+    constexpr float k_gap = 0.03125f; // m from brick to brick: more than contacts reach ahead, and exact
+    constexpr float k_brick_pitch = k_brick.x + k_gap;
     constexpr float k_sphere = 4.3f;    // m, radius
     constexpr float k_between = 2.0f;   // m from the end of a wall to the next in its row
     constexpr float k_row_pitch = 4.0f; // m from row to row
@@ -86,7 +88,7 @@ Scene make_brick_gables(const Parameters& parameters) {
     const std::uint32_t across = parameters.integer("across");
     const std::uint32_t rows = parameters.integer("rows");
     const std::uint32_t base = parameters.integer("base");
-    const auto wall_pitch = static_cast<float>(k_brick_pitch * base - k_gap) + k_between;
+    const float wall_pitch = k_brick_pitch * static_cast<float>(base) - k_gap + k_between;
     const float half_x = 0.5f * (wall_pitch * static_cast<float>(across) - k_between);
     const float half_z = 0.5f * k_row_pitch * static_cast<float>(rows - 1);
     const auto wall_x = [&](std::uint32_t wall) {
@@ -102,10 +104,11 @@ Scene make_brick_gables(const Parameters& parameters) {
         for (std::uint32_t wall = 0; wall < across; ++wall)
             for (std::uint32_t course = 0; course < base; ++course)
                 for (std::uint32_t i = 0; i < base - course; ++i) {
-                    const double x = k_brick_pitch * (i - 0.5 * (base - course - 1));
-                    builder.add_box({wall_x(wall) + static_cast<float>(x), course_centre(course),
-                                     k_row_pitch * static_cast<float>(row) - half_z},
-                                    k_brick);
+                    const float x =
+                        k_brick_pitch * (static_cast<float>(i) - 0.5f * static_cast<float>(base - course - 1));
+                    builder.add_box(
+                        {wall_x(wall) + x, course_centre(course), k_row_pitch * static_cast<float>(row) - half_z},
+                        k_brick);
                 }
     const float top = std::max(k_brick.y * static_cast<float>(base), 2.0f * k_sphere);
     return builder.finish(builder.bounds(),

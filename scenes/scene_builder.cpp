@@ -46,7 +46,8 @@ BodyDefinition& SceneBuilder::add_sphere(Vec3 centre, float radius) {
 }
 
 BodyDefinition& SceneBuilder::add(std::string name, const BodyDefinition& definition) {
-    NamedBody& body = scene.bodies.emplace_back(std::move(name), definition);
+    scene.bodies.push_back({std::move(name), definition});
+    NamedBody& body = scene.bodies.back();
     body.definition.material.friction = common_friction;
     return body.definition;
 }
