@@ -16,7 +16,7 @@ namespace talus::scenes {
 namespace {
 
 constexpr Vec3 k_brick{1.0f, 0.5f, 0.5f}; // m
-constexpr float k_margin = 60.0f;         // m of ground around what stands on it, for what is hit away
+constexpr float k_margin = 300.0f;        // m of ground around what stands on it: a sphere may roll on for ten seconds
 constexpr float k_speed = 25.0f;          // m/s of the spheres
 
 float course_centre(std::uint32_t course) {
