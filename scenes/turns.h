@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rotations about one axis, in radians. Worked out in double precision, so that libraries whose sines differ in the
-// last bit round to the same float, but for one in some hundred million.
+// Rotations about one axis, in radians. Worked out in double precision: libraries whose sines differ in the last bit
+// then almost always round to the same float.
 #pragma once
 
 #include <cmath>
