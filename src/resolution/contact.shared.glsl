@@ -481,8 +481,8 @@ inline ContactConstraintPoint no_point()
 
 // ---- from a constraint back to its manifold ----
 
-// Impulses of the whole step, and the sub-steps that their load asks for in the next one. A load counts once it has
-// lasted for two steps: an impact is no reason for finer sub-steps.
+// Impulses of the whole step, and the sub-steps that their load asks for in the next one. The load is a running mean: an
+// impact is no reason for finer sub-steps.
 inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
                                float inverse_mass_b, Parameters p)
 {
@@ -494,7 +494,8 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 nor
     manifold.tangent_impulse_1 = tangent_impulse_1;
     manifold.tangent_impulse_2 = tangent_impulse_2;
     manifold.twist_impulse = twist_impulse;
-    uint wanted = wanted_substeps(min(weights, manifold.weights), p);
+    precise float mean = manifold.weights + k_newest_weight * (weights - manifold.weights);
+    uint wanted = wanted_substeps(mean, p);
     bool on_trial = manifold.idle_steps >= k_trial;
     bool idle = on_trial || 2u * wanted <= manifold.substeps;
     manifold.idle_steps = idle ? manifold.idle_steps + 1u : 0u;
@@ -503,6 +504,6 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 nor
         manifold.substeps = wanted;
         manifold.idle_steps = 0u;
     }
-    manifold.weights = weights;
+    manifold.weights = mean;
     return manifold;
 }

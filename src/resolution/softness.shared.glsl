@@ -62,6 +62,7 @@ const float k_substeps_a_weight = 0.65f;
 // More sub-steps are had at once, fewer only after so many steps in a row in which half would have done: a change of
 // stiffness shakes what stands, which changes the load, and without patience a tower never came to rest.
 const uint k_patience = 64u;
+const float k_newest_weight = 0.125f; // share of the newest step in the mean load
 // What stands where the caller has put it is given the most until its load is known: with few sub-steps a tower would be
 // shaken while the load builds up.
 const uint k_trial = 1000u;      // Manifold::idle_steps counts up from here in a trial

@@ -107,7 +107,7 @@ struct Manifold {
     float tangent_impulse_1; // N s, over the step; friction of all points together
     float tangent_impulse_2;
     float twist_impulse; // N m s, about the normal
-    float weights;       // of the lighter body, that pressed the two together in the last step
+    float weights;       // of the lighter body, that press the two together: a mean over some steps
     uint substeps;       // that the load asks for
     uint idle_steps;     // steps in a row in which half the sub-steps would have done; see softness.shared.glsl
 };
