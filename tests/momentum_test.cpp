@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What contacts may not change, on every device: linear and angular momentum; and what they have to carry: the weight.
-#include <span>
-
 #include <gtest/gtest.h>
 
 #include "tests/bodies.h"
