@@ -64,6 +64,11 @@ protected:
     INSTANTIATE_TEST_SUITE_P(Devices, Suite, testing::Values(DeviceKind::Cpu, DeviceKind::Gpu, DeviceKind::Hybrid),    \
                              [](const auto& test) { return ::talus::tests::name_of(test.param); })
 
+/// For runs of thousands of steps: that other devices give the same bits is for determinism_test.cpp to show.
+#define TALUS_ON_THE_CPU(Suite)                                                                                        \
+    INSTANTIATE_TEST_SUITE_P(Devices, Suite, testing::Values(DeviceKind::Cpu),                                         \
+                             [](const auto& test) { return ::talus::tests::name_of(test.param); })
+
 /// The message of the Error that a call throws.
 template <typename Call> std::string error_of(const Call& call) {
     try {

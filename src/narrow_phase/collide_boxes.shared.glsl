@@ -333,5 +333,6 @@ inline ContactGeometry collide_boxes(BoxPair p, uint old_axis, float max_separat
         if (b_is_reference) g = swap_bodies(g, q.offset);
     }
     g.axis = query.axis;
+    g.separation = query.separation;
     return g;
 }

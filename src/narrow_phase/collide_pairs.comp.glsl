@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3).
-// Reads: Counters, Pairs, Poses, Shapes, Aabbs (for the margins), Properties, PairTable, OldManifolds, OldManifoldPoints.
+// Reads: Counters, Pairs, Poses, Velocities, Shapes, Aabbs (for the margins), Properties, PairTable, OldManifolds,
+// OldManifoldPoints.
 // Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints.
 // Needs: barriers after plan_pairs and fill_pair_table.
 // Overflow: none.
@@ -12,6 +13,7 @@
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
+#include "narrow_phase/look_ahead.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -19,6 +21,7 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Pairs { Pair pairs[]; };
 layout(std430) readonly buffer Poses { BodyPose poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
 layout(std430) readonly buffer Properties { BodyProperties properties[]; };
@@ -67,8 +70,9 @@ void main()
     BodyPose pose_b = poses[pair.body_b];
     precise vec3 offset = pose_b.position - pose_a.position;
     precise float max_separation = aabbs[pair.body_a].margin + aabbs[pair.body_b].margin;
-    ContactGeometry g =
-        collide_shapes(pose_a, shapes[pair.body_a], pose_b, shapes[pair.body_b], old_axis, max_separation);
+    precise vec3 motion = (velocities[pair.body_b].linear - velocities[pair.body_a].linear) * parameters.dt;
+    ContactGeometry g = collide_moving_shapes(pose_a, shapes[pair.body_a], pose_b, shapes[pair.body_b], motion,
+                                              old_axis, max_separation);
     Manifold manifold = make_manifold(pair, g, old_colour, properties[pair.body_a], properties[pair.body_b]);
     if (old_index != k_none)
         manifold = carry_over(manifold, old);

@@ -2,10 +2,13 @@
 // What the collision of two shapes gives, whatever the shapes: the geometry of a manifold.
 
 const uint k_axis_none = 0xffu; // spheres have no separating axis to remember
+const float k_far_apart = 3.0e38f; // m: farther than anyone looks
 
 struct ContactGeometry {
     vec3 normal; // unit, world, from A to B
     uint axis;   // which separating axis it is
+    vec3 shift;  // m: B is this far on, as seen from A, where the bodies meet; the points are those of that moment
+    float separation; // m, along the normal; known also where there are no points, but for bodies far apart
     uint count;  // points, 0 to 4
     // Points midway between the two surfaces, from A's centre in world axes (m). The midpoint serves both bodies, so
     // that a normal and a friction impulse change no angular momentum; the thesis takes the reference face.
@@ -19,6 +22,8 @@ inline ContactGeometry no_contact()
     ContactGeometry g;
     g.normal = vec3(0.0f, 1.0f, 0.0f);
     g.axis = k_axis_none;
+    g.shift = vec3(0.0f, 0.0f, 0.0f);
+    g.separation = k_far_apart;
     g.count = 0u;
     for (uint i = 0u; i < 4u; i += 1u) {
         g.points[i] = vec3(0.0f, 0.0f, 0.0f);
@@ -33,6 +38,7 @@ inline ContactGeometry one_contact(vec3 normal, vec3 point, float separation)
     ContactGeometry g = no_contact();
     g.normal = normal;
     g.count = 1u;
+    g.separation = separation;
     g.points[0] = point;
     g.separations[0] = separation;
     return g;

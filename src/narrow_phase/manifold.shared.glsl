@@ -113,10 +113,10 @@ inline PointMatch match_points(ContactGeometry g, OldPoints old, bool same_axis)
     return match;
 }
 
-// Point i of the new manifold; `offset` leads from A's centre to B's.
+// Point i of the new manifold; `offset` leads from A's centre to B's at the start of the step.
 inline ManifoldPoint make_point(ContactGeometry g, vec3 offset, uint i)
 {
-    precise vec3 anchor_b = g.points[i] - offset;
+    precise vec3 anchor_b = g.points[i] - (offset + g.shift);
     ManifoldPoint point;
     point.anchor_a = g.points[i];
     point.separation = g.separations[i];

@@ -21,6 +21,7 @@ namespace talus::engine {
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
+#include "narrow_phase/look_ahead.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"
 
 #include "resolution/body.shared.glsl"

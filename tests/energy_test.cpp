@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Contacts take energy or keep it, and never give any. Each scene runs, and at no time may kinetic and potential energy
+// together be more than a thousandth above what they were at the start. The potential is zero at y = 0, the ground.
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/bodies.h"
+#include "tests/devices.h"
+#include "tests/mechanics.h"
+
+namespace talus::tests {
+namespace {
+
+std::vector<BodyDefinition> pyramid_that_falls() {
+    std::vector<BodyDefinition> bodies = bodies_of("pyramid:base=8");
+    for (BodyDefinition& body : bodies)
+        if (body.kind == BodyKind::Rigid) body.pose.position.y += 0.2f;
+    return bodies;
+}
+
+/// Two cards that lean against each other and a third that lies on top.
+std::vector<BodyDefinition> cards() {
+    constexpr float k_lean = 0.3f;
+    const Vec3 size{0.1f, 2.0f, 1.2f};
+    // Half the height and half the width of a leaning card.
+    const float rise = std::cos(k_lean) + 0.05f * std::sin(k_lean), half = std::sin(k_lean) + 0.05f * std::cos(k_lean);
+    std::vector<BodyDefinition> bodies{with_material(ground(), 0.6f)};
+    for (const float side : {-1.0f, 1.0f}) {
+        BodyDefinition card = with_material(box_at({side * half, rise, 0.0f}, size), 0.6f);
+        card.pose.rotation = turn({0.0f, 0.0f, 1.0f}, side * k_lean);
+        bodies.push_back(card);
+    }
+    bodies.push_back(with_material(box_at({0.0f, 2.0f * rise + 0.05f, 0.0f}, {2.0f, 0.1f, 1.2f}), 0.6f));
+    return bodies;
+}
+
+std::vector<BodyDefinition> cards_that_slip() {
+    std::vector<BodyDefinition> bodies = cards();
+    for (BodyDefinition& body : bodies)
+        body.material.friction = 0.1f;
+    return bodies;
+}
+
+std::vector<BodyDefinition> boxes_thrown_at_each_other(float restitution) {
+    std::vector<BodyDefinition> bodies;
+    for (int i = 0; i < 12; ++i) {
+        const float angle = 0.5236f * static_cast<float>(i), height = 0.4f * static_cast<float>(i % 3) - 0.4f;
+        const Vec3 out{std::cos(angle), 0.0f, std::sin(angle)};
+        BodyDefinition body =
+            box_at(out * 5.0f + Vec3{0.0f, height, 0.0f}, {1.0f, 0.5f + 0.1f * static_cast<float>(i), 0.8f});
+        body.velocity = {out * -4.0f, {3.0f, -2.0f * height, static_cast<float>(i % 5)}};
+        bodies.push_back(with_material(body, 0.5f, restitution));
+    }
+    return bodies;
+}
+
+/// 27 bouncing spheres in a closed room of 5 m.
+std::vector<BodyDefinition> gas() {
+    std::vector<BodyDefinition> bodies;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float side : {-3.5f, 3.5f}) {
+            const Vec3 place{axis == 0 ? side : 0.0f, axis == 1 ? side : 0.0f, axis == 2 ? side : 0.0f};
+            const Vec3 size{axis == 0 ? 2.0f : 9.0f, axis == 1 ? 2.0f : 9.0f, axis == 2 ? 2.0f : 9.0f};
+            bodies.push_back(with_material(box_at(place, size, BodyKind::Static), 0.0f, 1.0f));
+        }
+    }
+    for (int i = 0; i < 27; ++i) {
+        BodyDefinition body = with_material(
+            sphere_at({1.5f * static_cast<float>(i % 3) - 1.5f, 1.5f * static_cast<float>(i / 3 % 3) - 1.5f,
+                       1.5f * static_cast<float>(i / 9) - 1.5f},
+                      0.4f),
+            0.0f, 1.0f);
+        body.velocity.linear = {3.0f - static_cast<float>(i % 7), static_cast<float>(i % 5) - 2.0f,
+                                static_cast<float>(i % 4) - 1.0f};
+        bodies.push_back(body);
+    }
+    return bodies;
+}
+
+/// The same with its floor at the zero of the potential.
+std::vector<BodyDefinition> gas_above_ground() {
+    std::vector<BodyDefinition> bodies = gas();
+    for (BodyDefinition& body : bodies)
+        body.pose.position.y += 2.5f;
+    return bodies;
+}
+
+struct Case {
+    const char* name;
+    bool weighty;
+    int steps;
+    std::function<std::vector<BodyDefinition>()> bodies;
+
+    friend std::ostream& operator<<(std::ostream& stream, const Case& c) { return stream << c.name; }
+};
+
+void expect_no_gain(World& world, const Case& scene, int look_every) {
+    world.add(scene.bodies());
+    const double start = mechanical_energy(world);
+    double most = start;
+    int when = 0;
+    for (int i = 0; i < scene.steps; i += look_every) {
+        world.step(static_cast<std::uint32_t>(look_every));
+        if (const double energy = mechanical_energy(world); energy > most) {
+            most = energy;
+            when = i + look_every;
+        }
+    }
+    EXPECT_LE(most, 1.001 * start) << "gained " << 100.0 * (most / start - 1.0) << " % by step " << when;
+    EXPECT_GT(start, 0.0);
+}
+
+World world_for(const Case& scene, DeviceKind device) {
+    return World(scene.weighty ? Settings{} : weightless(), options_on(device));
+}
+
+const Case k_cases[] = {
+    {"stack", true, 600, [] { return bodies_of("stack:height=10"); }},
+    {"pyramid", true, 600, [] { return bodies_of("pyramid:base=10"); }},
+    {"pyramid_that_falls", true, 300, pyramid_that_falls},
+    {"pool", true, 600, [] { return bodies_of("pool:boxes=150"); }},
+    {"cards", true, 600, cards},
+    {"cards_that_slip", true, 300, cards_that_slip},
+    {"thrown_boxes", false, 240, [] { return boxes_thrown_at_each_other(0.0f); }},
+    {"thrown_boxes_that_bounce", false, 240, [] { return boxes_thrown_at_each_other(1.0f); }},
+    {"gas", false, 1200, gas},
+    {"gas_with_weight", true, 1200, gas_above_ground},
+};
+
+class Energy : public testing::TestWithParam<Case> {};
+
+TEST_P(Energy, is_never_gained) {
+    World world = world_for(GetParam(), DeviceKind::Cpu);
+    expect_no_gain(world, GetParam(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Energy, testing::ValuesIn(k_cases),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+class EnergyOnDevices : public OnDevice {};
+
+TEST_P(EnergyOnDevices, is_never_gained_by_thrown_boxes) {
+    World world = make_world(weightless());
+    expect_no_gain(world, {"thrown", false, 120, [] { return boxes_thrown_at_each_other(0.5f); }}, 4);
+}
+
+TALUS_ON_EVERY_DEVICE(EnergyOnDevices);
+
+} // namespace
+} // namespace talus::tests

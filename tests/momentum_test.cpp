@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// What contacts may not change, on every device: linear and angular momentum; and what they have to carry: the weight.
+#include <gtest/gtest.h>
+
+#include "tests/bodies.h"
+#include "tests/devices.h"
+#include "tests/mechanics.h"
+
+namespace talus::tests {
+namespace {
+
+class Momentum : public OnDevice {};
+
+TEST_P(Momentum, is_kept_when_two_boxes_collide) {
+    for (const float restitution : {0.0f, 1.0f}) {
+        SCOPED_TRACE(restitution);
+        World world = make_world(weightless());
+        BodyDefinition a = with_material(box_at({-2.0f, 0.1f, 0.2f}), 0.5f, restitution);
+        a.mass = 1.0f;
+        a.velocity.linear = {4.0f, 0.0f, 0.0f};
+        BodyDefinition b = with_material(box_at({0.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 1.0f}), 0.5f, restitution);
+        b.mass = 3.0f;
+        const BodyId id_a = world.add(a), id_b = world.add(b);
+        world.step(60);
+        EXPECT_GT(world.velocity(id_b).linear.x, 0.5f) << "they must have met";
+        const glm::dvec3 sum = linear_momentum(world, id_a) + linear_momentum(world, id_b);
+        EXPECT_LT(glm::length(sum - glm::dvec3(4.0, 0.0, 0.0)), 1e-5 * 4.0);
+    }
+}
+
+/// Cubes and spheres that fly at each other from eight sides, each off the middle of the next. All turn alike about
+/// every axis of theirs, so that free flight keeps each one's angular momentum to the last bits.
+std::vector<BodyDefinition> crossfire(float restitution) {
+    std::vector<BodyDefinition> bodies;
+    for (int i = 0; i < 8; ++i) {
+        const float angle = 0.7854f * static_cast<float>(i), offset = 0.15f * static_cast<float>(i % 3) - 0.15f;
+        const Vec3 position{3.0f * std::cos(angle), offset, 3.0f * std::sin(angle)};
+        BodyDefinition body = i % 2 == 0 ? box_at(position) : sphere_at(position);
+        body.mass = 1.0f + 0.5f * static_cast<float>(i % 4);
+        body.velocity = {{-3.0f * std::cos(angle) + 0.3f, -0.2f * offset, -3.0f * std::sin(angle)},
+                         {0.5f * static_cast<float>(i % 5), -1.0f, 0.7f}};
+        bodies.push_back(with_material(body, 0.4f, restitution));
+    }
+    return bodies;
+}
+
+struct Momenta {
+    glm::dvec3 linear{}, angular{};
+    double linear_scale = 0.0, angular_scale = 0.0; // sums of the magnitudes: what an error is measured by
+};
+
+Momenta momenta_of(const World& world) {
+    Momenta m;
+    for (const BodyId id : world.bodies()) {
+        const glm::dvec3 linear = linear_momentum(world, id), angular = angular_momentum(world, id);
+        m.linear += linear;
+        m.angular += angular;
+        m.linear_scale += glm::length(linear);
+        m.angular_scale += glm::length(angular);
+    }
+    return m;
+}
+
+TEST_P(Momentum, is_kept_when_many_bodies_collide) {
+    for (const float restitution : {0.0f, 1.0f}) {
+        SCOPED_TRACE(restitution);
+        World world = make_world(weightless());
+        world.add(crossfire(restitution));
+        const Momenta start = momenta_of(world);
+        world.step(150);
+        const Momenta end = momenta_of(world);
+        EXPECT_LT(end.linear_scale, 0.95 * start.linear_scale) << "they must have met";
+        EXPECT_LT(glm::length(end.linear - start.linear), 1e-5 * start.linear_scale);
+    }
+}
+
+TEST_P(Momentum, of_turning_is_kept_when_many_bodies_collide) {
+    for (const float restitution : {0.0f, 1.0f}) {
+        SCOPED_TRACE(restitution);
+        World world = make_world(weightless());
+        world.add(crossfire(restitution));
+        const Momenta start = momenta_of(world);
+        world.step(150);
+        EXPECT_LT(glm::length(momenta_of(world).angular - start.angular), 1e-5 * start.angular_scale);
+    }
+}
+
+// ---- impulses ----
+
+/// The sum of the normal impulses between a body and the bodies below it (N s).
+float impulse_under(const World& world, BodyId id) {
+    float sum = 0.0f;
+    for (const Contact& contact : world.contacts())
+        if (contact.b == id)
+            for (const ContactPoint& point : contact.points)
+                sum += point.normal_impulse * contact.normal.y;
+    return sum;
+}
+
+TEST_P(Momentum, contacts_carry_the_stack_above_over_the_whole_step) {
+    World world = make_world();
+    world.add(ground());
+    std::vector<BodyId> boxes;
+    for (int i = 0; i < 5; ++i) {
+        BodyDefinition definition = box_at({0.0f, 0.5f + static_cast<float>(i), 0.0f});
+        definition.mass = 10.0f;
+        boxes.push_back(world.add(definition));
+    }
+    world.step(120);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const float weight = 10.0f * static_cast<float>(boxes.size() - i) * k_gravity * k_dt;
+        EXPECT_NEAR(impulse_under(world, boxes[i]) / weight, 1.0f, 0.01f) << "under box " << i;
+    }
+}
+
+TEST_P(Momentum, a_box_on_a_slope_presses_with_the_cosine_of_its_weight) {
+    World world = make_world();
+    const Quat tilt = turn({0.0f, 0.0f, 1.0f}, -0.3f);
+    BodyDefinition slope = with_material(box_at({}, {20.0f, 1.0f, 10.0f}, BodyKind::Static), 0.8f);
+    slope.pose.rotation = tilt;
+    world.add(slope);
+    BodyDefinition box = with_material(box_at(rotated(tilt, {0.0f, 1.0f, 0.0f})), 0.8f);
+    box.mass = 10.0f;
+    box.pose.rotation = tilt;
+    const BodyId id = world.add(box);
+    world.step(120);
+    const float expected = 10.0f * std::cos(0.3f) * k_gravity * k_dt;
+    EXPECT_NEAR(impulse_under(world, id) / std::cos(0.3f) / expected, 1.0f, 0.01f);
+}
+
+TALUS_ON_EVERY_DEVICE(Momentum);
+
+} // namespace
+} // namespace talus::tests

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Bounces, on every device.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/bodies.h"
+#include "tests/devices.h"
+#include "tests/mechanics.h"
+
+namespace talus::tests {
+namespace {
+
+class Restitution : public OnDevice {};
+class LongRestitution : public OnDevice {};
+
+/// How high a body comes after its first impact on the ground, which it meets at `rest` (m).
+float height_of_bounce(World& world, BodyDefinition body, float e, float rest, float drop) {
+    world.add(with_material(ground(), 0.5f, e));
+    body.pose.position = {0.0f, rest + drop, 0.0f};
+    const BodyId id = world.add(with_material(body, 0.5f, e));
+    float highest = 0.0f, lowest = drop;
+    bool rises = false;
+    for (int i = 0; i < 240; ++i) {
+        world.step();
+        const bool rose = rises;
+        rises = world.velocity(id).linear.y > 0.0f;
+        const float height = world.pose(id).position.y - rest;
+        lowest = std::min(lowest, height);
+        if (rises || rose) highest = std::max(highest, height);
+        if (rose && !rises && highest > 1e-3f) break; // past the top
+    }
+    EXPECT_LT(lowest, 0.15f)
+        << "it must have come down"; // a step's way at most: it is seen before and after the impact
+    return highest;
+}
+
+TEST_P(Restitution, a_ball_bounces_to_the_square_of_the_restitution) {
+    for (const float e : {0.25f, 0.5f, 0.75f, 1.0f}) {
+        for (const float drop : {1.0f, 2.0f, 3.3f}) {
+            SCOPED_TRACE("restitution " + std::to_string(e) + " from " + std::to_string(drop) + " m");
+            World world = make_world();
+            const float height = height_of_bounce(world, sphere_at({}), e, 0.5f, drop);
+            EXPECT_NEAR(height, e * e * drop, 0.02f * e * e * drop);
+        }
+    }
+}
+
+TEST_P(Restitution, a_box_that_falls_flat_bounces_as_a_ball_does) {
+    for (const float e : {0.5f, 1.0f}) {
+        SCOPED_TRACE(e);
+        World world = make_world();
+        EXPECT_NEAR(height_of_bounce(world, box_at({}), e, 0.5f, 2.0f), e * e * 2.0f, 0.02f * e * e * 2.0f);
+    }
+}
+
+TEST_P(Restitution, without_it_nothing_bounces) {
+    for (const BodyDefinition& body : {sphere_at({}), box_at({})}) {
+        for (const float drop : {1.0f, 2.0f, 3.3f}) {
+            SCOPED_TRACE(drop);
+            World world = make_world();
+            EXPECT_LT(height_of_bounce(world, body, 0.0f, 0.5f, drop), 1e-3f);
+        }
+    }
+}
+
+TEST_P(Restitution, equal_spheres_exchange_their_velocities) {
+    World world = make_world(weightless());
+    BodyDefinition a = with_material(sphere_at({-2.0f, 0.0f, 0.0f}), 0.0f, 1.0f);
+    a.velocity.linear = {5.0f, 0.0f, 0.0f};
+    const BodyId id_a = world.add(a), id_b = world.add(with_material(sphere_at({0.0f, 0.0f, 0.0f}), 0.0f, 1.0f));
+    world.step(60);
+    // The impulse of a head-on impact is exact but for the roundings of the effective mass.
+    EXPECT_NEAR(world.velocity(id_a).linear.x, 0.0f, 1e-3f);
+    EXPECT_NEAR(world.velocity(id_b).linear.x, 5.0f, 1e-3f);
+}
+
+TEST_P(Restitution, spheres_of_unequal_mass_part_as_an_elastic_impact_says) {
+    World world = make_world(weightless());
+    BodyDefinition a = with_material(sphere_at({-2.0f, 0.0f, 0.0f}), 0.0f, 1.0f);
+    a.mass = 1.0f;
+    a.velocity.linear = {5.0f, 0.0f, 0.0f};
+    BodyDefinition b = with_material(sphere_at({0.0f, 0.0f, 0.0f}), 0.0f, 1.0f);
+    b.mass = 4.0f;
+    const BodyId id_a = world.add(a), id_b = world.add(b);
+    world.step(60);
+    EXPECT_NEAR(world.velocity(id_a).linear.x, -3.0f, 1e-3f); // (1 - 4) / 5 of 5 m/s
+    EXPECT_NEAR(world.velocity(id_b).linear.x, 2.0f, 1e-3f);  // 2 / 5 of 5 m/s
+}
+
+TEST_P(Restitution, newtons_cradle_passes_the_momentum_on) {
+    World world = make_world(weightless());
+    BodyDefinition first = with_material(sphere_at({-2.0f, 0.0f, 0.0f}), 0.0f, 1.0f);
+    first.velocity.linear = {3.0f, 0.0f, 0.0f};
+    std::vector<BodyId> spheres{world.add(first)};
+    for (int i = 0; i < 4; ++i)
+        spheres.push_back(world.add(with_material(sphere_at({static_cast<float>(i), 0.0f, 0.0f}), 0.0f, 1.0f)));
+    world.step(60);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(world.velocity(spheres[i]).linear.x, 0.0f, 0.05f * 3.0f) << "sphere " << i;
+    EXPECT_NEAR(world.velocity(spheres[4]).linear.x, 3.0f, 0.05f * 3.0f);
+}
+
+TEST_P(LongRestitution, a_body_at_rest_that_would_bounce_stays_at_rest) {
+    for (const BodyDefinition& body : {sphere_at({0.0f, 0.5f, 0.0f}), box_at({0.0f, 0.5f, 0.0f})}) {
+        World world = make_world();
+        world.add(with_material(ground(), 0.5f, 1.0f));
+        const BodyId id = world.add(with_material(body, 0.5f, 1.0f));
+        const double energy = mechanical_energy(world);
+        for (int second = 1; second <= 60; ++second) {
+            world.step(60);
+            EXPECT_LE(mechanical_energy(world), 1.001 * energy) << second;
+            EXPECT_LT(length(world.velocity(id).linear), 1e-3f) << second;
+        }
+    }
+}
+
+TALUS_ON_EVERY_DEVICE(Restitution);
+TALUS_ON_THE_CPU(LongRestitution);
+
+} // namespace
+} // namespace talus::tests
