@@ -353,7 +353,7 @@ std::vector<CollisionPair> World::collision_pairs() const {
 }
 
 std::vector<Contact> World::contacts() const {
-    impl_->refresh();
+    impl_->simulation.settle();
     const uint pair_count = impl_->simulation.report().pairs;
     std::vector<Manifold> manifolds(pair_count);
     std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
@@ -371,8 +371,7 @@ std::vector<Contact> World::contacts() const {
             impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b), from_glm(manifold.normal), {}};
         for (std::size_t k = 0; k < manifold.point_count; ++k) {
             const ManifoldPoint& point = points[std::size_t{4} * i + k];
-            contact.points.push_back({from_glm(impl_->table.poses[manifold.body_b].position + point.anchor_b),
-                                      point.separation, point.normal_impulse});
+            contact.points.push_back({from_glm(point.position), point.separation, point.normal_impulse});
         }
         result.push_back(std::move(contact));
     }
