@@ -92,6 +92,10 @@ TEST_F(Program, bad_usage_ends_with_2_and_says_what_is_allowed) {
         {"run stack --record .", "folder"},
         {"run stack --state a.json --report ./a.json", "same file"},
         {"run stack --device cpu --video a.mp4 --width 321", "even"},
+        {"run stack --image a.jpg", ".png"},
+        {"run stack --image png", ".png"},
+        {"run stack --video a.txt", ".mp4"},
+        {"run stack --video a.mp4.gz", ".mp4"},
     };
     for (const auto& [arguments, expected] : cases) {
         const Ending ending = talus(arguments);
