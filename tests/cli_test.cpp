@@ -66,7 +66,7 @@ std::vector<std::string> keys_of(const json& object) {
 TEST_F(Program, explains_itself) {
     const Ending help = talus("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* command : {"demo", "run", "parity", "scenes", "devices"})
+    for (const char* command : {"demo", "run", "parity", "scenes", "devices", "./talus test"})
         EXPECT_NE(help.output.find(command), std::string::npos) << command;
     EXPECT_EQ(talus("run --help").status, 0);
     EXPECT_NE(talus("scenes").output.find("stack"), std::string::npos);
@@ -76,6 +76,7 @@ TEST_F(Program, explains_itself) {
 TEST_F(Program, bad_usage_ends_with_2_and_says_what_is_allowed) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"", "run"},
+        {"", "./talus test"},
         {"fly", "fly"},
         {"run", "scene"},
         {"run stak", "stack"},
