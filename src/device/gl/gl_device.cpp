@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "device/gl/kernel_source.h"
+
 namespace talus::engine {
 namespace {
 
@@ -257,6 +259,7 @@ void GlDevice::leave() {
 }
 
 std::unique_ptr<Device> make_gl_device(GlContext context, bool profile) {
+    check_kernel_folder();
     return std::make_unique<GlDevice>(context == GlContext::Own ? OpenGlContext::own() : OpenGlContext::current(),
                                       profile);
 }
