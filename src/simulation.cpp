@@ -50,17 +50,16 @@ Simulation::Simulation(const WorldOptions& options) {
     DeviceKind kind = options.device;
     std::string why = "asked for";
     if (kind == DeviceKind::Auto) {
-        const std::vector<GlProbe> probes = probe_gl();
+        const std::vector<DeviceInfo> probes = probe_gl();
         const auto hardware =
-            std::ranges::find_if(probes, [](const GlProbe& p) { return !p.software && !p.info.name.empty(); });
+            std::ranges::find_if(probes, [](const DeviceInfo& p) { return !p.in_software && !p.name.empty(); });
         const bool has_gpu = options.gl_context == GlContext::Current || hardware != probes.end();
         kind = has_gpu ? DeviceKind::Gpu : DeviceKind::Cpu;
-        why = has_gpu
-                  ? "there is a GPU"
-                  : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
-                                            : probes.front().info.name.empty()
-                                                ? probes.front().info.why
-                                                : "OpenGL runs in software here (" + probes.front().info.name + ")");
+        why = has_gpu ? "there is a GPU"
+                      : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
+                                                : probes.front().name.empty()
+                                                    ? probes.front().why
+                                                    : "OpenGL runs in software here (" + probes.front().name + ")");
     }
     if (kind != DeviceKind::Cpu) gpu = make_gl_device(options.gl_context, options.profile);
     if (kind != DeviceKind::Gpu) cpu = make_cpu_device(options.threads, options.profile);

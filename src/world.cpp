@@ -479,11 +479,7 @@ std::span<const char* const> stage_names() noexcept {
 }
 
 std::vector<DeviceInfo> list_devices() {
-    std::vector<DeviceInfo> devices;
-    for (GlProbe& probe : probe_gl()) {
-        if (probe.software && probe.info.why.empty()) probe.info.why = "software renderer: right, and slow";
-        devices.push_back(std::move(probe.info));
-    }
+    std::vector<DeviceInfo> devices = probe_gl();
     devices.push_back(make_cpu_device(0, false)->info());
     return devices;
 }

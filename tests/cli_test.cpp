@@ -73,6 +73,15 @@ TEST_F(Program, explains_itself) {
     EXPECT_NE(talus("devices").output.find("cpu"), std::string::npos);
 }
 
+TEST_F(Program, devices_tell_a_gpu_from_a_renderer_in_software) {
+    const std::string list = talus("devices").output;
+    for (std::size_t place = list.find("llvmpipe ("); place != std::string::npos;
+         place = list.find("llvmpipe (", place + 1)) {
+        const std::string line = list.substr(place, list.find('\n', place) - place);
+        EXPECT_TRUE(line.ends_with(" (in software)")) << line;
+    }
+}
+
 TEST_F(Program, bad_usage_ends_with_2_and_says_what_is_allowed) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"", "run"},

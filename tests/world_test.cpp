@@ -465,6 +465,19 @@ TEST(Devices, are_listed) {
     EXPECT_GT(devices.back().threads, 0u);
 }
 
+TEST(Devices, in_software_come_after_those_in_hardware_and_are_never_taken_by_themselves) {
+    bool software_seen = false;
+    for (const DeviceInfo& device : list_devices()) {
+        if (device.kind == DeviceKind::Cpu || device.name.empty()) continue;
+        EXPECT_FALSE(software_seen && !device.in_software) << device.name;
+        software_seen |= device.in_software;
+        if (device.name.find("llvmpipe") != std::string::npos) {
+            EXPECT_TRUE(device.in_software);
+        }
+    }
+    EXPECT_FALSE(World().device().in_software);
+}
+
 TEST(Devices, auto_takes_one_and_says_why) {
     const World world;
     EXPECT_NE(world.device().kind, DeviceKind::Auto);

@@ -32,6 +32,7 @@ struct DeviceInfo {
     std::string driver;                ///< OpenGL version and driver; for the CPU the compiler
     std::string why;                   ///< why this device was taken
     std::uint32_t threads = 0;         ///< of the CPU device; 0 where it takes no part
+    bool in_software = false;          ///< OpenGL without a GPU, as by llvmpipe: right, and slow
 };
 
 /// Bytes that the world holds now.

@@ -273,6 +273,15 @@ void OpenGlContext::describe() {
     driver_ = "OpenGL " + gl_string(GL_VERSION) + ", " + gl_string(GL_VENDOR);
 }
 
+DeviceInfo OpenGlContext::info() const {
+    return {.kind = DeviceKind::Gpu,
+            .name = renderer_,
+            .driver = driver_,
+            .why = why_,
+            .threads = 0,
+            .in_software = is_software()};
+}
+
 bool OpenGlContext::is_software() const noexcept {
     for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR", "lavapipe", "Software Rasterizer"}) {
         if (renderer_.find(name) != std::string::npos) return true;
@@ -280,10 +289,12 @@ bool OpenGlContext::is_software() const noexcept {
     return false;
 }
 
-std::vector<GlProbe> probe_gl() {
-    std::vector<GlProbe> probes;
+std::vector<DeviceInfo> probe_gl() {
+    std::vector<DeviceInfo> probes;
     const auto refuse = [&probes](const std::string& why) {
-        probes.push_back({{.kind = DeviceKind::Gpu, .name = {}, .driver = {}, .why = why, .threads = 0}, false});
+        DeviceInfo& none = probes.emplace_back();
+        none.kind = DeviceKind::Gpu;
+        none.why = why;
     };
     if (!epoxy_has_egl()) {
         refuse(k_no_egl);
@@ -298,16 +309,12 @@ std::vector<GlProbe> probe_gl() {
                 const auto opened = candidate.open();
                 // The surfaceless platform mostly shows one of the devices again.
                 const bool again = candidate.display == surfaceless &&
-                                   std::any_of(probes.begin(), probes.end(), [&](const GlProbe& probe) {
-                                       return probe.info.name == opened->renderer();
+                                   std::any_of(probes.begin(), probes.end(), [&](const DeviceInfo& probe) {
+                                       return probe.name == opened->renderer();
                                    });
                 if (again) continue;
-                probes.push_back({{.kind = DeviceKind::Gpu,
-                                   .name = opened->renderer(),
-                                   .driver = opened->driver(),
-                                   .why = candidate.label,
-                                   .threads = 0},
-                                  opened->is_software()});
+                probes.push_back(opened->info());
+                probes.back().why = candidate.label;
             } catch (const Error& error) {
                 refuse(candidate.label + ": " + error.what());
             }
@@ -315,8 +322,8 @@ std::vector<GlProbe> probe_gl() {
     }
     if (probes.empty()) refuse(k_no_platform);
     // The one that would be taken comes first, those that cannot be used last.
-    std::stable_sort(probes.begin(), probes.end(), [](const GlProbe& a, const GlProbe& b) {
-        const auto rank = [](const GlProbe& probe) { return probe.info.name.empty() ? 2 : probe.software ? 1 : 0; };
+    std::stable_sort(probes.begin(), probes.end(), [](const DeviceInfo& a, const DeviceInfo& b) {
+        const auto rank = [](const DeviceInfo& probe) { return probe.name.empty() ? 2 : probe.in_software ? 1 : 0; };
         return rank(a) < rank(b);
     });
     return probes;

@@ -60,14 +60,6 @@ GlDevice::~GlDevice() {
     }
 }
 
-DeviceInfo GlDevice::info() const {
-    return {.kind = DeviceKind::Gpu,
-            .name = context_->renderer(),
-            .driver = context_->driver(),
-            .why = context_->why(),
-            .threads = 0};
-}
-
 void GlDevice::grow(BufferId id, std::size_t bytes) {
     GlBuffer& old = buffer(id);
     if (bytes <= old.size()) return;
