@@ -17,7 +17,6 @@ namespace {
 constexpr uint k_first_bodies = 64;
 constexpr uint k_first_pairs = 256;
 constexpr uint k_first_colours = 8;
-constexpr uint k_most_pairs = 1u << 28; // four points each still have 32-bit indices
 // The ring keeps this many steps' results; one place stays free so that the newest finished step's are still there.
 constexpr std::size_t k_most_pending = k_ring_size - 1;
 // After so many steps launches for colours that none of them needed are given up.

@@ -137,6 +137,11 @@ Settings checked(const Settings& settings) {
     return settings;
 }
 
+const WorldOptions& checked(const WorldOptions& options) {
+    check_options(options);
+    return options;
+}
+
 BodyDefinition checked(const BodyDefinition& definition, const std::string& where) {
     return checked_definition(definition, where);
 }
@@ -148,7 +153,7 @@ std::string name_of(const char* call, BodyId id) {
 } // namespace
 
 World::World(const Settings& settings, const WorldOptions& options)
-    : impl_(std::make_unique<Impl>(checked(settings), options)) {}
+    : impl_(std::make_unique<Impl>(checked(settings), checked(options))) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;

@@ -50,11 +50,12 @@ struct Settings {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
 };
 
-/// How many of each thing the first buffers have room for. They grow as needed, so this only saves the growing.
+/// How many of each thing the first buffers have room for; 0 leaves it to Talus. They grow as needed, so this only
+/// saves the growing.
 struct Capacities {
-    std::uint32_t bodies = 0;
-    std::uint32_t pairs = 0;
-    std::uint32_t colours = 0;
+    std::uint32_t bodies = 0;  ///< at most 16,777,216
+    std::uint32_t pairs = 0;   ///< at most 268,435,456
+    std::uint32_t colours = 0; ///< at most 64
 };
 
 /// What is fixed when a world is made.
