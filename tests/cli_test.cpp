@@ -225,6 +225,11 @@ TEST_F(ProgramPictures, video_and_picture) {
     EXPECT_EQ(text_of(folder / "i.png").substr(1, 3), "PNG");
     EXPECT_EQ(text_of(folder / "v.mp4").substr(4, 4), "ftyp");
     EXPECT_NE(ending.output.find("v.mp4"), std::string::npos);
+    // Half a second of video from its start on, and the picture of the end.
+    const std::string note = "drawing 17 pictures of 320 × 200 pixels in software";
+    EXPECT_EQ(ending.errors.find(note) != std::string::npos, talus::list_devices().front().in_software)
+        << ending.errors;
+    EXPECT_EQ(run_on_cpu("stack --steps 1 --image i.png --width 64 --height 48 --quiet").errors, "");
 }
 
 } // namespace
