@@ -19,7 +19,10 @@ enum class DeviceKind : std::uint32_t {
 
 /// Which OpenGL context the GPU device uses.
 enum class GlContext : std::uint32_t {
-    Own,     ///< one of its own, headless through EGL; no window system needed. Calls leave it current on the thread
+    /// One of its own, headless through EGL; no window system needed. After each call the thread has current what EGL
+    /// had current on it before, so a renderer's context is safe, and another thread may make the next call. A context
+    /// of GLX must not be current: EGL cannot put it back.
+    Own,
     Current, ///< the caller's, current on the calling thread now and in every later call on the world
 };
 

@@ -16,6 +16,7 @@
 #include <epoxy/gl.h>
 
 #include "device/device.h"
+#include "device/gl/callers_context.h"
 
 namespace talus::engine {
 namespace {
@@ -27,8 +28,8 @@ std::string egl_error() {
     case EGL_NOT_INITIALIZED:
         return "EGL_NOT_INITIALIZED";
     case EGL_BAD_ACCESS:
-        return "EGL_BAD_ACCESS: it is current on another thread, or a context of another API (GLX) is current on this "
-               "one";
+        return "EGL_BAD_ACCESS: it is current on another thread (World::make_gl_current leaves it there), or a "
+               "context of another API (GLX) is current on this one";
     case EGL_BAD_ALLOC:
         return "EGL_BAD_ALLOC";
     case EGL_BAD_ATTRIBUTE:
@@ -61,31 +62,6 @@ void* (*find_glx_query())() {
     }
     return nullptr;
 }
-
-/// Puts back what EGL had current on this thread.
-class EglThreadState {
-public:
-    EglThreadState()
-        : api_(eglQueryAPI()), display_(eglGetCurrentDisplay()), context_(eglGetCurrentContext()),
-          draw_(eglGetCurrentSurface(EGL_DRAW)), read_(eglGetCurrentSurface(EGL_READ)) {}
-    ~EglThreadState() {
-        const EGLDisplay now = eglGetCurrentDisplay();
-        if (context_ != EGL_NO_CONTEXT)
-            eglMakeCurrent(display_, draw_, read_, context_);
-        else if (now != EGL_NO_DISPLAY)
-            eglMakeCurrent(now, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        eglBindAPI(api_);
-    }
-    EglThreadState(const EglThreadState&) = delete;
-    EglThreadState& operator=(const EglThreadState&) = delete;
-
-private:
-    EGLenum api_;
-    EGLDisplay display_;
-    EGLContext context_;
-    EGLSurface draw_;
-    EGLSurface read_;
-};
 
 void GLAPIENTRY print_debug_message(GLenum source, GLenum, GLuint, GLenum severity, GLsizei length,
                                     const GLchar* message, const void* context) {
@@ -202,7 +178,7 @@ std::unique_ptr<OpenGlContext> OpenGlContext::own() {
     const std::string refused = "no OpenGL 4.5 context without a window: ";
     if (!epoxy_has_egl()) throw Error(refused + k_no_egl);
 
-    const EglThreadState callers;
+    const CallersContext callers;
     std::unique_ptr<OpenGlContext> in_software;
     std::string tried;
     for (const auto& candidates : {device_candidates(), surfaceless_candidates()}) {
@@ -300,7 +276,7 @@ std::vector<DeviceInfo> probe_gl() {
         refuse(k_no_egl);
         return probes;
     }
-    const EglThreadState callers;
+    const CallersContext callers;
     const std::vector<EglCandidate> last = surfaceless_candidates();
     const EGLDisplay surfaceless = last.empty() ? EGL_NO_DISPLAY : last.front().display;
     for (const auto& candidates : {device_candidates(), last}) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "device/gl/callers_context.h"
 #include "device/gl/kernel_source.h"
 
 namespace talus::engine {
@@ -50,9 +51,11 @@ GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile) : conte
 }
 
 GlDevice::~GlDevice() {
+    const CallersContext callers(context_->is_own());
     try {
         context_->make_current();
         leave();
+        objects_.reset();
     } catch (const Error&) {
         // The caller's context is gone or elsewhere: freeing names now could hit another context's objects, and its own
         // went with it.
