@@ -12,7 +12,8 @@ namespace {
 
 void print_devices() {
     for (const DeviceInfo& device : list_devices()) {
-        fmt::print("{:<8}{}\n", word_of(device_words(), device.kind), device.name.empty() ? "none" : device.name);
+        fmt::print("{:<8}{}{}\n", word_of(device_words(), device.kind), device.name.empty() ? "none" : device.name,
+                   device.in_software ? " (in software)" : "");
         if (!device.driver.empty()) fmt::print("        {}\n", device.driver);
         if (device.threads > 0) fmt::print("        {} threads\n", device.threads);
         if (!device.why.empty()) fmt::print("        {}\n", device.why);

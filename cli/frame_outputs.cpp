@@ -2,6 +2,7 @@
 // Picture k of the video shows the first state at or after k divided by the frame rate.
 #include "cli/frame_outputs.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/output_file.h"
@@ -33,6 +34,12 @@ FrameOutputs::FrameOutputs(const OutputOptions& output_options, const TimedRun& 
     if (!options.image.empty() || !options.video.empty())
         renderer.emplace(world, options.width, options.height, run.scene().camera, options.overlays);
     if (!options.video.empty()) video.emplace(options.video, options.width, options.height, options.frames_per_second);
+}
+
+std::uint64_t FrameOutputs::pictures_in_software(std::uint64_t steps) const {
+    if (!renderer || !renderer->draws_in_software()) return 0;
+    const std::uint64_t of_video = video ? std::min(pictures_due(steps), steps + 1) : 0; // a state is drawn once
+    return of_video + (options.image.empty() ? 0 : 1);
 }
 
 bool FrameOutputs::wants(std::uint64_t steps) const {

@@ -21,6 +21,9 @@ public:
     /// Throws Error where a file cannot be written or nothing can be drawn. The run must outlive it.
     FrameOutputs(const OutputOptions&, const TimedRun&);
 
+    /// How many pictures a run of this many steps has drawn without a GPU; 0 where there is one.
+    std::uint64_t pictures_in_software(std::uint64_t steps) const;
+
     /// Is there something to write after this many steps?
     bool wants(std::uint64_t steps) const;
     /// Takes the world as it is now. To be called after every number of steps that is wanted, 0 included.

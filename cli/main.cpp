@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
     add_scenes(app, status);
     add_devices(app, status);
 
+    app.footer("In the folder of the sources, ./talus test builds and runs every test.");
+
     catch_interrupts();
     try {
         app.parse(argc, argv);

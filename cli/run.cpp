@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t k_many_pictures = 10; // about a second in software
+
 std::vector<fs::path> files_of(const OutputOptions& output) {
     std::vector<fs::path> files;
     for (const fs::path* path : {&output.report, &output.state, &output.recording, &output.video, &output.image})
@@ -33,6 +35,15 @@ void check_files_differ(const std::vector<fs::path>& files) {
         for (std::size_t j = 0; j < i; ++j)
             if (fs::weakly_canonical(fs::absolute(files[i])) == fs::weakly_canonical(fs::absolute(files[j])))
                 throw Error("two outputs would be written to the same file, " + files[i].string());
+}
+
+/// Said at the start, because it takes long and nothing else shows outside of a terminal that the program is at work.
+void announce_drawing(const FrameOutputs& outputs, const SimulationOptions& options, const OutputOptions& output) {
+    const std::uint64_t pictures = outputs.pictures_in_software(options.steps);
+    if (pictures < k_many_pictures || output.quiet) return;
+    fmt::print(stderr,
+               "talus: drawing {} pictures of {} × {} pixels in software, for want of a GPU; this takes a while\n",
+               pictures, output.width, output.height);
 }
 
 void simulate(TimedRun& run, FrameOutputs& outputs, const SimulationOptions& options, bool quiet) {
@@ -71,6 +82,7 @@ int run_simulation(const SimulationOptions& options, const OutputOptions& output
 
     TimedRun run(std::move(scene), settings, world_options, options.steps);
     FrameOutputs outputs(output, run);
+    announce_drawing(outputs, options, output);
     simulate(run, outputs, options, output.quiet);
 
     const RunReport report = make_report(run);

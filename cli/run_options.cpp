@@ -50,6 +50,16 @@ std::string check_seconds(const std::string& given) {
     return fmt::format("'{}' is not a positive number", given);
 }
 
+/// What a file holds follows its option, not its name: another ending would be a lie.
+CLI::Validator ends_in(const std::string& ending) {
+    return {[ending](const std::string& given) -> std::string {
+                if (CLI::detail::to_lower(std::filesystem::path(given).extension().string()) == ending) return {};
+                return fmt::format("'{}' does not end in {}, the only kind of file that is written here", given,
+                                   ending);
+            },
+            ""};
+}
+
 void set_overlays(render::Overlays& overlays, const std::string& list) {
     for (const std::string& word : CLI::detail::split(list, ',')) {
         if (word == "contacts") {
@@ -108,8 +118,10 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
         ->type_name("FILE.json");
     command.add_option("--record", options.recording, "Write every pose of every step (docs/recording.md)")
         ->type_name("FILE");
-    command.add_option("--video", options.video, "Write a video")->type_name("FILE.mp4");
-    command.add_option("--image", options.image, "Write a picture of the end")->type_name("FILE.png");
+    command.add_option("--video", options.video, "Write a video")->check(ends_in(".mp4"))->type_name("FILE.mp4");
+    command.add_option("--image", options.image, "Write a picture of the end")
+        ->check(ends_in(".png"))
+        ->type_name("FILE.png");
     command
         .add_option_function<std::string>(
             "--show", [&options](const std::string& list) { set_overlays(options.overlays, list); },

@@ -39,6 +39,7 @@ TimedRun::TimedRun(scenes::Scene scene, const Settings& settings, const WorldOpt
     definitions.reserve(source.bodies.size());
     for (const scenes::NamedBody& body : source.bodies)
         definitions.push_back(body.definition);
+    simulated.make_gl_current(); // spares each step the change of context
     simulated.add(definitions);
     simulated.wait();
 }

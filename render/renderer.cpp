@@ -102,6 +102,10 @@ Picture Renderer::collect() {
     return impl_->canvas->receive();
 }
 
+bool Renderer::draws_in_software() const noexcept {
+    return impl_->own_context ? impl_->own_context->is_software() : impl_->world.device().in_software;
+}
+
 void Renderer::set_camera(const scenes::Camera& camera) {
     make_view(camera, 1, 1, 1.0f); // refuses a camera that cannot see
     impl_->camera = camera;

@@ -49,6 +49,8 @@ public:
     Picture collect();
 
     void set_camera(const scenes::Camera&);
+    /// Whether OpenGL runs without a GPU here, where a picture takes a tenth of a second rather than a thousandth.
+    bool draws_in_software() const noexcept;
 
 private:
     struct Impl;

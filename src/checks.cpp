@@ -34,6 +34,12 @@ void check_size(float value, const std::string& where, const char* what) {
     check_range(value, k_smallest_size, k_largest_size, where, what, " m");
 }
 
+void check_capacity(std::uint32_t value, std::uint32_t highest, const char* what) {
+    if (value > highest)
+        refuse("options",
+               fmt::format("capacities.{} is {}; allowed is 0 (the usual room) to {}", what, value, highest));
+}
+
 void check_combine(Combine rule, const std::string& where, const char* what) {
     if (static_cast<std::uint32_t>(rule) > static_cast<std::uint32_t>(Combine::Multiply))
         refuse(where, fmt::format("{} is {}, which is no rule of Combine", what, static_cast<std::uint32_t>(rule)));
@@ -149,6 +155,15 @@ void check_settings(const Settings& settings) {
     check_range(settings.max_angular_speed, 1.0e-3f, 1.0e5f, where, "max_angular_speed", " rad/s");
     if (settings.broad_phase > BroadPhase::Brute) refuse(where, "broad_phase is none of SweepAndPrune and Brute");
     if (settings.stabilisation > Stabilisation::Baumgarte) refuse(where, "stabilisation is none of Soft and Baumgarte");
+}
+
+void check_options(const WorldOptions& options) {
+    const std::string where = "options";
+    if (options.device > DeviceKind::Hybrid) refuse(where, "device is none of Auto, Gpu, Cpu and Hybrid");
+    if (options.gl_context > GlContext::Current) refuse(where, "gl_context is none of Own and Current");
+    check_capacity(options.capacities.bodies, k_most_bodies, "bodies");
+    check_capacity(options.capacities.pairs, k_most_pairs, "pairs");
+    check_capacity(options.capacities.colours, k_max_colours, "colours");
 }
 
 } // namespace talus::engine

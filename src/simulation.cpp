@@ -17,7 +17,6 @@ namespace {
 constexpr uint k_first_bodies = 64;
 constexpr uint k_first_pairs = 256;
 constexpr uint k_first_colours = 8;
-constexpr uint k_most_pairs = 1u << 28; // four points each still have 32-bit indices
 // The ring keeps this many steps' results; one place stays free so that the newest finished step's are still there.
 constexpr std::size_t k_most_pending = k_ring_size - 1;
 // Where all bodies have the same number of sub-steps, the heaviest load of a large world must not cost too much.
@@ -53,17 +52,16 @@ Simulation::Simulation(const WorldOptions& options) {
     DeviceKind kind = options.device;
     std::string why = "asked for";
     if (kind == DeviceKind::Auto) {
-        const std::vector<GlProbe> probes = probe_gl();
+        const std::vector<DeviceInfo> probes = probe_gl();
         const auto hardware =
-            std::ranges::find_if(probes, [](const GlProbe& p) { return !p.software && !p.info.name.empty(); });
+            std::ranges::find_if(probes, [](const DeviceInfo& p) { return !p.in_software && !p.name.empty(); });
         const bool has_gpu = options.gl_context == GlContext::Current || hardware != probes.end();
         kind = has_gpu ? DeviceKind::Gpu : DeviceKind::Cpu;
-        why = has_gpu
-                  ? "there is a GPU"
-                  : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
-                                            : probes.front().info.name.empty()
-                                                ? probes.front().info.why
-                                                : "OpenGL runs in software here (" + probes.front().info.name + ")");
+        why = has_gpu ? "there is a GPU"
+                      : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
+                                                : probes.front().name.empty()
+                                                    ? probes.front().why
+                                                    : "OpenGL runs in software here (" + probes.front().name + ")");
     }
     if (kind != DeviceKind::Cpu) gpu = make_gl_device(options.gl_context, options.profile);
     if (kind != DeviceKind::Gpu) cpu = make_cpu_device(options.threads, options.profile);

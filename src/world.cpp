@@ -10,6 +10,7 @@
 
 #include "body_table.h"
 #include "checks.h"
+#include "device/gl/callers_context.h"
 #include "simulation.h"
 #include "state/formulas.h"
 
@@ -17,9 +18,14 @@ namespace talus {
 using namespace engine;
 
 struct World::Impl {
-    Impl(const Settings& wanted, const WorldOptions& options) : simulation(options) { set_settings(wanted); }
+    Impl(const Settings& wanted, const WorldOptions& options)
+        : simulation(options),
+          own_context(options.gl_context == GlContext::Own && simulation.device().kind != DeviceKind::Cpu) {
+        set_settings(wanted);
+    }
 
     void set_settings(const Settings& wanted) {
+        const CallersContext callers(own_context);
         simulation.settle();
         simulation.set_settings(wanted);
         settings = wanted;
@@ -46,6 +52,7 @@ struct World::Impl {
     /// The table's poses and velocities are those of the newest step.
     void refresh() {
         if (table_step == simulation.step_count()) return;
+        const CallersContext callers(own_context);
         simulation.settle();
         const uint count = device_slots;
         const std::array requests{
@@ -104,6 +111,7 @@ struct World::Impl {
     }
 
     void step(std::uint32_t count) {
+        const CallersContext callers(own_context);
         for (std::uint32_t i = 0; i < count; ++i) {
             upload_changes();
             simulation.step(table.population(), poses_wanted);
@@ -122,6 +130,7 @@ struct World::Impl {
     bool both_present(uint a, uint b) const { return table.is_present(a) && table.is_present(b); }
 
     Simulation simulation;
+    bool own_context; ///< OpenGL is used, in a context of the world's own
     Settings settings;
     BodyTable table;
     std::uint64_t table_step = 0; ///< the step whose poses and velocities the table holds
@@ -137,8 +146,9 @@ Settings checked(const Settings& settings) {
     return settings;
 }
 
-BodyDefinition checked(const BodyDefinition& definition, const std::string& where) {
-    return checked_definition(definition, where);
+const WorldOptions& checked(const WorldOptions& options) {
+    check_options(options);
+    return options;
 }
 
 std::string name_of(const char* call, BodyId id) {
@@ -147,8 +157,10 @@ std::string name_of(const char* call, BodyId id) {
 
 } // namespace
 
-World::World(const Settings& settings, const WorldOptions& options)
-    : impl_(std::make_unique<Impl>(checked(settings), options)) {}
+World::World(const Settings& settings, const WorldOptions& options) {
+    const CallersContext callers(options.device != DeviceKind::Cpu && options.gl_context == GlContext::Own);
+    impl_ = std::make_unique<Impl>(checked(settings), checked(options));
+}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -163,8 +175,8 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
     std::vector<BodyDefinition> all;
     all.reserve(definitions.size());
     for (std::size_t i = 0; i < definitions.size(); ++i)
-        all.push_back(
-            checked(definitions[i], definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
+        all.push_back(checked_definition(definitions[i],
+                                         definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
     impl_->refresh();
     std::vector<BodyId> ids;
     ids.reserve(all.size());
@@ -331,6 +343,7 @@ void World::step(std::uint32_t count) {
     impl_->step(count);
 }
 void World::wait() const {
+    const CallersContext callers(impl_->own_context);
     impl_->simulation.settle();
 }
 std::uint64_t World::step_count() const noexcept {
@@ -340,6 +353,7 @@ std::uint64_t World::step_count() const noexcept {
 // ---- results ----
 
 std::vector<CollisionPair> World::collision_pairs() const {
+    const CallersContext callers(impl_->own_context);
     impl_->simulation.settle();
     std::vector<Pair> pairs(impl_->simulation.report().pairs);
     const std::array requests{ReadRequest{BufferId::Pairs, pairs.size() * sizeof(Pair), pairs.data()}};
@@ -354,7 +368,8 @@ std::vector<CollisionPair> World::collision_pairs() const {
 }
 
 std::vector<Contact> World::contacts() const {
-    impl_->refresh();
+    const CallersContext callers(impl_->own_context);
+    impl_->simulation.settle();
     const uint pair_count = impl_->simulation.report().pairs;
     std::vector<Manifold> manifolds(pair_count);
     std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
@@ -372,8 +387,7 @@ std::vector<Contact> World::contacts() const {
             impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b), from_glm(manifold.normal), {}};
         for (std::size_t k = 0; k < manifold.point_count; ++k) {
             const ManifoldPoint& point = points[std::size_t{4} * i + k];
-            contact.points.push_back({from_glm(impl_->table.poses[manifold.body_b].position + point.anchor_b),
-                                      point.separation, point.normal_impulse});
+            contact.points.push_back({from_glm(point.position), point.separation, point.normal_impulse});
         }
         result.push_back(std::move(contact));
     }
@@ -382,6 +396,7 @@ std::vector<Contact> World::contacts() const {
 }
 
 StepReport World::report() const {
+    const CallersContext callers(impl_->own_context);
     impl_->simulation.settle();
     return impl_->simulation.report();
 }
@@ -414,6 +429,7 @@ void World::keep_poses_coming(bool wanted) {
 }
 
 World::PoseFrame World::newest_poses() const {
+    const CallersContext callers(impl_->own_context);
     impl_->simulation.poll();
     const std::span<const BodyPose> poses = impl_->simulation.newest_poses();
     PoseFrame frame;
@@ -453,6 +469,7 @@ GlBuffers World::gl_buffers() const {
     Device& device = impl_->simulation.detection_device();
     if (device.gl_name(BufferId::Poses) == 0)
         throw Error("gl_buffers: the world runs on the CPU, which has no OpenGL buffers");
+    const CallersContext callers(impl_->own_context);
     impl_->upload_changes();
     impl_->simulation.settle();
     if (impl_->simulation.state_device().gl_name(BufferId::Poses) == 0) { // hybrid: the newest poses are the CPU's
@@ -478,16 +495,6 @@ void World::make_gl_current() const {
 
 std::span<const char* const> stage_names() noexcept {
     return k_stage_names;
-}
-
-std::vector<DeviceInfo> list_devices() {
-    std::vector<DeviceInfo> devices;
-    for (GlProbe& probe : probe_gl()) {
-        if (probe.software && probe.info.why.empty()) probe.info.why = "software renderer: right, and slow";
-        devices.push_back(std::move(probe.info));
-    }
-    devices.push_back(make_cpu_device(0, false)->info());
-    return devices;
 }
 
 } // namespace talus

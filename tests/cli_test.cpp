@@ -66,16 +66,26 @@ std::vector<std::string> keys_of(const json& object) {
 TEST_F(Program, explains_itself) {
     const Ending help = talus("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* command : {"demo", "run", "parity", "scenes", "devices"})
+    for (const char* command : {"demo", "run", "parity", "scenes", "devices", "./talus test"})
         EXPECT_NE(help.output.find(command), std::string::npos) << command;
     EXPECT_EQ(talus("run --help").status, 0);
     EXPECT_NE(talus("scenes").output.find("stack"), std::string::npos);
     EXPECT_NE(talus("devices").output.find("cpu"), std::string::npos);
 }
 
+TEST_F(Program, devices_tell_a_gpu_from_a_renderer_in_software) {
+    const std::string list = talus("devices").output;
+    for (std::size_t place = list.find("llvmpipe ("); place != std::string::npos;
+         place = list.find("llvmpipe (", place + 1)) {
+        const std::string line = list.substr(place, list.find('\n', place) - place);
+        EXPECT_TRUE(line.ends_with(" (in software)")) << line;
+    }
+}
+
 TEST_F(Program, bad_usage_ends_with_2_and_says_what_is_allowed) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"", "run"},
+        {"", "./talus test"},
         {"fly", "fly"},
         {"run", "scene"},
         {"run stak", "stack"},
@@ -92,6 +102,10 @@ TEST_F(Program, bad_usage_ends_with_2_and_says_what_is_allowed) {
         {"run stack --record .", "folder"},
         {"run stack --state a.json --report ./a.json", "same file"},
         {"run stack --device cpu --video a.mp4 --width 321", "even"},
+        {"run stack --image a.jpg", ".png"},
+        {"run stack --image png", ".png"},
+        {"run stack --video a.txt", ".mp4"},
+        {"run stack --video a.mp4.gz", ".mp4"},
     };
     for (const auto& [arguments, expected] : cases) {
         const Ending ending = talus(arguments);
@@ -211,6 +225,11 @@ TEST_F(ProgramPictures, video_and_picture) {
     EXPECT_EQ(text_of(folder / "i.png").substr(1, 3), "PNG");
     EXPECT_EQ(text_of(folder / "v.mp4").substr(4, 4), "ftyp");
     EXPECT_NE(ending.output.find("v.mp4"), std::string::npos);
+    // Half a second of video from its start on, and the picture of the end.
+    const std::string note = "drawing 17 pictures of 320 × 200 pixels in software";
+    EXPECT_EQ(ending.errors.find(note) != std::string::npos, talus::list_devices().front().in_software)
+        << ending.errors;
+    EXPECT_EQ(run_on_cpu("stack --steps 1 --image i.png --width 64 --height 48 --quiet").errors, "");
 }
 
 } // namespace

@@ -268,6 +268,21 @@ TEST_P(Errors, a_world_is_not_made_with_bad_settings) {
     Settings settings;
     settings.substeps = 0;
     EXPECT_NE(error_of([&] { make_world(settings); }).find("substeps"), std::string::npos);
+    const std::vector<std::pair<std::string, std::function<void(WorldOptions&)>>> spoilt{
+        {"capacities.bodies is 4294967295; allowed is 0 (the usual room) to 16777216",
+         [](WorldOptions& o) { o.capacities.bodies = UINT32_MAX; }},
+        {"capacities.pairs is 1000000000; allowed", [](WorldOptions& o) { o.capacities.pairs = 1'000'000'000; }},
+        {"capacities.colours is 65; allowed is 0 (the usual room) to 64",
+         [](WorldOptions& o) { o.capacities.colours = 65; }},
+        {"device is none of", [](WorldOptions& o) { o.device = DeviceKind{9}; }},
+        {"gl_context is none of", [](WorldOptions& o) { o.gl_context = GlContext{2}; }},
+    };
+    for (const auto& [words, spoil] : spoilt) {
+        WorldOptions bad = options_on(GetParam());
+        spoil(bad);
+        const std::string message = error_of([&] { const World refused({}, bad); });
+        EXPECT_NE(message.find(words), std::string::npos) << "'" << words << "' is missing in: " << message;
+    }
     if (GetParam() == DeviceKind::Gpu) return;
     WorldOptions options = options_on(GetParam());
     options.threads = 5'000;

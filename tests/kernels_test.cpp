@@ -65,6 +65,41 @@ TEST(Kernels, have_a_twin_of_the_same_name_beside_them) {
     EXPECT_EQ(twins, files_ending_in(".comp.glsl"));
 }
 
+// ---- a folder to read them from ----
+
+class KernelFolder : public testing::Test {
+protected:
+    KernelFolder() { fs::create_directories(folder); }
+    ~KernelFolder() override {
+        unsetenv("TALUS_KERNEL_PATH");
+        fs::remove_all(folder);
+    }
+
+    static std::string refusal(const fs::path& named) {
+        setenv("TALUS_KERNEL_PATH", named.c_str(), 1);
+        return tests::error_of(check_kernel_folder);
+    }
+
+    const fs::path folder = fs::path(testing::TempDir()) / ("talus_kernel_folder_" + std::to_string(getpid()));
+};
+
+TEST_F(KernelFolder, is_refused_where_it_can_change_nothing) {
+    EXPECT_NE(refusal(folder / "none").find("none', and there is no such folder"), std::string::npos);
+    EXPECT_NE(refusal(folder).find("holds no shader of Talus"), std::string::npos);
+    EXPECT_EQ(refusal(""), "no error");
+    EXPECT_EQ(refusal(k_source_folder), "no error");
+}
+
+TEST_F(KernelFolder, replaces_the_files_that_it_holds) {
+    const std::string path = kernel_paths().front(), other = kernel_paths().back();
+    const std::string before = kernel_source(other).text;
+    fs::create_directories((folder / path).parent_path());
+    std::ofstream(folder / (path + ".comp.glsl")) << "// changed by a test\n";
+    EXPECT_EQ(refusal(folder), "no error");
+    EXPECT_NE(kernel_source(path).text.find("changed by a test"), std::string::npos);
+    EXPECT_EQ(kernel_source(other).text, before);
+}
+
 // ---- compilers ----
 
 TEST(Kernels, are_accepted_by_glslang) {
@@ -92,6 +127,13 @@ protected:
     }
     std::unique_ptr<OpenGlContext> context;
 };
+
+TEST_P(GlKernels, are_not_made_from_a_folder_that_is_not_there) {
+    setenv("TALUS_KERNEL_PATH", "/none/such", 1);
+    const std::string error = tests::error_of([] { const World refused({}, tests::options_on(DeviceKind::Gpu)); });
+    unsetenv("TALUS_KERNEL_PATH");
+    EXPECT_NE(error.find("/none/such"), std::string::npos) << error;
+}
 
 TEST_P(GlKernels, compile_and_use_no_more_buffers_than_every_driver_has) {
     for (const std::string& path : kernel_paths()) {

@@ -19,6 +19,8 @@ target_link_libraries(talus_readme_program PRIVATE talus::talus)
 talus_test(readme)
 add_dependencies(readme_test talus_program talus_readme_program)
 target_compile_definitions(readme_test PRIVATE
+    TALUS_COMPILER="${CMAKE_CXX_COMPILER}"
+    TALUS_COMPILER_LAUNCHER="${CMAKE_CXX_COMPILER_LAUNCHER}"
     TALUS_PROGRAM_FILE="$<TARGET_FILE:talus_program>"
     TALUS_README_PROGRAM_FILE="$<TARGET_FILE:talus_readme_program>")
 talus_run(readme docs)

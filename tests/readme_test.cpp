@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The documentation: the first program of README.md runs and prints what stands there, the commands exist, the links
-// and the named files are there, and docs/architecture.md has the stages in run order.
+// The documentation: the first program of README.md runs and prints what stands there, also where it is built as
+// README.md says; the commands exist, the links and the named files are there, and docs/architecture.md has the stages
+// in run order.
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <talus/world.h>
 
@@ -114,6 +117,28 @@ TEST(Readme, first_program_prints_what_stands_there) {
     const Ending ending = run("'" TALUS_README_PROGRAM_FILE "'");
     EXPECT_EQ(ending.status, 0);
     EXPECT_EQ(ending.output, blocks_of(text_of(k_root / "README.md"), "text").at(0));
+}
+
+TEST(Readme, first_program_builds_as_it_says) {
+    const std::string readme = text_of(k_root / "README.md");
+    const std::vector<std::string> scripts = blocks_of(readme, "sh");
+    const auto script = std::ranges::find_if(
+        scripts, [](const std::string& block) { return block.find("./build/hello") != std::string::npos; });
+    ASSERT_NE(script, scripts.end());
+
+    const fs::path folder = fs::path(testing::TempDir()) / ("talus_readme_" + std::to_string(getpid()));
+    fs::create_directories(folder);
+    fs::create_directory_symlink(k_root, folder / "talus");
+    std::ofstream(folder / "CMakeLists.txt") << blocks_of(readme, "cmake").at(0);
+    std::ofstream(folder / "hello.cpp") << first_program();
+    std::ofstream(folder / "script") << *script;
+    // The compiler that built this test, and with it a compiler cache where there is one.
+    setenv("CXX", TALUS_COMPILER, 1);
+    setenv("CMAKE_CXX_COMPILER_LAUNCHER", TALUS_COMPILER_LAUNCHER, 1);
+    const Ending ending = run("cd '" + folder.string() + "' && sh -e script");
+    EXPECT_EQ(ending.status, 0) << ending.output;
+    EXPECT_TRUE(ending.output.ends_with("\n" + blocks_of(readme, "text").at(0))) << ending.output;
+    fs::remove_all(folder);
 }
 
 TEST(Readme, commands_of_the_program_exist) {

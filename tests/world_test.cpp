@@ -285,6 +285,30 @@ TEST_P(Worlds, contacts_describe_a_resting_box) {
     EXPECT_EQ(report.step, 60u);
 }
 
+TEST_P(Worlds, contacts_lie_where_the_step_found_them) {
+    World world = make_world();
+    world.add(with_material(ground(), 0.0f));
+    const BodyId box = world.add(with_material(box_at({0.0f, 0.5f, 0.0f}), 0.0f));
+    world.step(30);
+    world.set_velocity(box, {{30.0f, 0.0f, 0.0f}, {}}); // half a metre a step
+    const Vec3 before = world.pose(box).position;
+    world.step();
+    ASSERT_NEAR(world.pose(box).position.x, before.x + 0.5f, 1e-3f);
+    const auto expect_around_it = [&] {
+        const std::vector<Contact> contacts = world.contacts();
+        ASSERT_EQ(contacts.size(), 1u);
+        ASSERT_EQ(contacts[0].points.size(), 4u);
+        for (const ContactPoint& point : contacts[0].points) {
+            EXPECT_NEAR(std::abs(point.position.x - before.x), 0.5f, 1e-3f);
+            EXPECT_NEAR(point.position.y, 0.0f, 2e-3f);
+            EXPECT_NEAR(std::abs(point.position.z - before.z), 0.5f, 1e-3f);
+        }
+    };
+    expect_around_it();
+    world.set_pose(box, {{0.0f, 20.0f, 0.0f}, {}});
+    expect_around_it();
+}
+
 TEST_P(Worlds, contact_impulses_carry_the_stack_above) {
     World world = make_world();
     world.add(ground());
@@ -439,6 +463,19 @@ TEST(Devices, are_listed) {
     ASSERT_FALSE(devices.empty());
     EXPECT_EQ(devices.back().kind, DeviceKind::Cpu);
     EXPECT_GT(devices.back().threads, 0u);
+}
+
+TEST(Devices, in_software_come_after_those_in_hardware_and_are_never_taken_by_themselves) {
+    bool software_seen = false;
+    for (const DeviceInfo& device : list_devices()) {
+        if (device.kind == DeviceKind::Cpu || device.name.empty()) continue;
+        EXPECT_FALSE(software_seen && !device.in_software) << device.name;
+        software_seen |= device.in_software;
+        if (device.name.find("llvmpipe") != std::string::npos) {
+            EXPECT_TRUE(device.in_software);
+        }
+    }
+    EXPECT_FALSE(World().device().in_software);
 }
 
 TEST(Devices, auto_takes_one_and_says_why) {

@@ -19,7 +19,10 @@ enum class DeviceKind : std::uint32_t {
 
 /// Which OpenGL context the GPU device uses.
 enum class GlContext : std::uint32_t {
-    Own,     ///< one of its own, headless through EGL; no window system needed. Calls leave it current on the thread
+    /// One of its own, headless through EGL; no window system needed. After each call the thread has current what EGL
+    /// had current on it before, so a renderer's context is safe, and another thread may make the next call. A context
+    /// of GLX must not be current: EGL cannot put it back.
+    Own,
     Current, ///< the caller's, current on the calling thread now and in every later call on the world
 };
 
@@ -51,11 +54,12 @@ struct Settings {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
 };
 
-/// How many of each thing the first buffers have room for. They grow as needed, so this only saves the growing.
+/// How many of each thing the first buffers have room for; 0 leaves it to Talus. They grow as needed, so this only
+/// saves the growing.
 struct Capacities {
-    std::uint32_t bodies = 0;
-    std::uint32_t pairs = 0;
-    std::uint32_t colours = 0;
+    std::uint32_t bodies = 0;  ///< at most 16,777,216
+    std::uint32_t pairs = 0;   ///< at most 268,435,456
+    std::uint32_t colours = 0; ///< at most 64
 };
 
 /// What is fixed when a world is made.

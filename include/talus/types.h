@@ -95,7 +95,7 @@ struct CollisionPair {
 
 /// One touching point between two bodies, as the last step solved it.
 struct ContactPoint {
-    Vec3 position;               ///< world space, midway between the two surfaces (m)
+    Vec3 position;               ///< world space, midway between the two surfaces as the step began (m)
     float separation = 0.0f;     ///< m; negative where the bodies overlap
     float normal_impulse = 0.0f; ///< N·s, over the last sub-step
 };

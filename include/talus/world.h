@@ -33,6 +33,7 @@ struct DeviceInfo {
     std::string driver;                ///< OpenGL version and driver; for the CPU the compiler
     std::string why;                   ///< why this device was taken
     std::uint32_t threads = 0;         ///< of the CPU device; 0 where it takes no part
+    bool in_software = false;          ///< OpenGL without a GPU, as by llvmpipe: right, and slow
 };
 
 /// Bytes that the world holds now.
@@ -59,7 +60,8 @@ struct GlBuffers {
     std::uint32_t pair_capacity = 0;
 };
 
-/// A world of bodies. Not thread-safe: one thread at a time.
+/// A world of bodies. Calls may come from several threads, one at a time: whoever lets two of them overlap has to lock.
+/// (A world in the caller's own OpenGL context stays with the thread that has the context.)
 ///
 /// `step` on a GPU returns before the GPU has finished; several steps may be on their way. Calls that read results, and
 /// calls that change the world, wait for them first.
@@ -145,7 +147,9 @@ public:
     MemoryUse memory() const noexcept;
     /// Throws Error on the CPU device, which has none.
     GlBuffers gl_buffers() const;
-    /// Makes the world's own OpenGL context current on this thread (GPU and hybrid), for drawing from its buffers.
+    /// Makes the world's own OpenGL context current on this thread (GPU and hybrid), for drawing from its buffers. It
+    /// stays current: calls on this thread save changing contexts, those on other threads are refused until something
+    /// else, or nothing, is made current here.
     void make_gl_current() const;
 
 private:

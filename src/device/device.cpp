@@ -18,3 +18,13 @@ BufferId Launch::bound(const char* block) const {
 }
 
 } // namespace talus::engine
+
+namespace talus {
+
+std::vector<DeviceInfo> list_devices() {
+    std::vector<DeviceInfo> devices = engine::probe_gl();
+    devices.push_back(engine::make_cpu_device(0, false)->info());
+    return devices;
+}
+
+} // namespace talus

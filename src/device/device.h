@@ -129,12 +129,8 @@ public:
 std::unique_ptr<Device> make_cpu_device(std::uint32_t threads, bool profile);
 std::unique_ptr<Device> make_gl_device(GlContext, bool profile);
 
-/// The GPU that make_gl_device(GlContext::Own) would take, without making it; an empty name, and the reason in `why`,
-/// where there is none. `software` is true for a renderer that runs on the CPU (llvmpipe, softpipe, lavapipe).
-struct GlProbe {
-    DeviceInfo info;
-    bool software = false;
-};
-std::vector<GlProbe> probe_gl();
+/// The GPUs that there are: first the one that make_gl_device(GlContext::Own) would take, last those that cannot be
+/// used, with an empty name and the reason in `why`.
+std::vector<DeviceInfo> probe_gl();
 
 } // namespace talus::engine

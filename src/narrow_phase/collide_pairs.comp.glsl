@@ -82,7 +82,7 @@ void main()
 
     PointMatch match = match_points(g, old_points, g.axis == old_axis);
     for (uint i = 0u; i < g.count; ++i) {
-        ManifoldPoint point = make_point(g, offset, i);
+        ManifoldPoint point = make_point(g, pose_a.position, offset, i);
         if (match.old_index[i] != k_none)
             point.normal_impulse = old_manifold_points[4u * old_index + match.old_index[i]].normal_impulse;
         manifold_points[4u * pair_index + i] = point;

@@ -55,7 +55,7 @@ void collide_pair(CpuState& state, uint pair_index) {
 
     const PointMatch match = match_points(g, old_points, g.axis == old_axis);
     for (uint i = 0; i < g.count; ++i) {
-        ManifoldPoint point = make_point(g, offset, i);
+        ManifoldPoint point = make_point(g, pose_a.position, offset, i);
         if (match.old_index[i] != k_none) point.normal_impulse = old_records[match.old_index[i]].normal_impulse;
         state.manifold_points[std::size_t{4} * pair_index + i] = point;
     }

@@ -114,18 +114,17 @@ inline PointMatch match_points(ContactGeometry g, OldPoints old, bool same_axis)
 }
 
 // Point i of the new manifold; `offset` leads from A's centre to B's at the start of the step.
-inline ManifoldPoint make_point(ContactGeometry g, vec3 offset, uint i)
+inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, uint i)
 {
     precise vec3 anchor_b = g.points[i] - (offset + g.shift);
+    precise vec3 position = centre_a + g.points[i];
     ManifoldPoint point;
     point.anchor_a = g.points[i];
     point.separation = g.separations[i];
     point.anchor_b = anchor_b;
     point.feature_id = g.features[i];
+    point.position = position;
     point.normal_impulse = 0.0f;
-    point.reserved_1 = 0.0f;
-    point.reserved_2 = 0.0f;
-    point.reserved_3 = 0.0f;
     return point;
 }
 

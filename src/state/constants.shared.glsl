@@ -3,6 +3,10 @@
 
 const uint k_none = 0xffffffffu; // no such index
 
+// Limits of a world
+const uint k_most_bodies = 1u << 24;
+const uint k_most_pairs = 1u << 28; // four points each still have 32-bit indices
+
 // BodyShape::type
 const uint k_shape_box = 0u;
 const uint k_shape_sphere = 1u;

@@ -118,10 +118,8 @@ struct ManifoldPoint {
     float separation; // m, negative = overlap
     vec3 anchor_b;    // m, from B's centre, world axes
     uint feature_id;
+    vec3 position;        // m, world: where the point was when it was found, before the bodies moved on
     float normal_impulse; // N s, over the step
-    float reserved_1;
-    float reserved_2;
-    float reserved_3;
 };
 
 // 96 bytes, one a manifold, in the order of the solve: what the solver reads of it.

@@ -16,6 +16,7 @@
 #include <epoxy/gl.h>
 
 #include "device/device.h"
+#include "device/gl/callers_context.h"
 
 namespace talus::engine {
 namespace {
@@ -27,8 +28,8 @@ std::string egl_error() {
     case EGL_NOT_INITIALIZED:
         return "EGL_NOT_INITIALIZED";
     case EGL_BAD_ACCESS:
-        return "EGL_BAD_ACCESS: it is current on another thread, or a context of another API (GLX) is current on this "
-               "one";
+        return "EGL_BAD_ACCESS: it is current on another thread (World::make_gl_current leaves it there), or a "
+               "context of another API (GLX) is current on this one";
     case EGL_BAD_ALLOC:
         return "EGL_BAD_ALLOC";
     case EGL_BAD_ATTRIBUTE:
@@ -61,31 +62,6 @@ void* (*find_glx_query())() {
     }
     return nullptr;
 }
-
-/// Puts back what EGL had current on this thread.
-class EglThreadState {
-public:
-    EglThreadState()
-        : api_(eglQueryAPI()), display_(eglGetCurrentDisplay()), context_(eglGetCurrentContext()),
-          draw_(eglGetCurrentSurface(EGL_DRAW)), read_(eglGetCurrentSurface(EGL_READ)) {}
-    ~EglThreadState() {
-        const EGLDisplay now = eglGetCurrentDisplay();
-        if (context_ != EGL_NO_CONTEXT)
-            eglMakeCurrent(display_, draw_, read_, context_);
-        else if (now != EGL_NO_DISPLAY)
-            eglMakeCurrent(now, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        eglBindAPI(api_);
-    }
-    EglThreadState(const EglThreadState&) = delete;
-    EglThreadState& operator=(const EglThreadState&) = delete;
-
-private:
-    EGLenum api_;
-    EGLDisplay display_;
-    EGLContext context_;
-    EGLSurface draw_;
-    EGLSurface read_;
-};
 
 void GLAPIENTRY print_debug_message(GLenum source, GLenum, GLuint, GLenum severity, GLsizei length,
                                     const GLchar* message, const void* context) {
@@ -202,7 +178,7 @@ std::unique_ptr<OpenGlContext> OpenGlContext::own() {
     const std::string refused = "no OpenGL 4.5 context without a window: ";
     if (!epoxy_has_egl()) throw Error(refused + k_no_egl);
 
-    const EglThreadState callers;
+    const CallersContext callers;
     std::unique_ptr<OpenGlContext> in_software;
     std::string tried;
     for (const auto& candidates : {device_candidates(), surfaceless_candidates()}) {
@@ -273,6 +249,15 @@ void OpenGlContext::describe() {
     driver_ = "OpenGL " + gl_string(GL_VERSION) + ", " + gl_string(GL_VENDOR);
 }
 
+DeviceInfo OpenGlContext::info() const {
+    return {.kind = DeviceKind::Gpu,
+            .name = renderer_,
+            .driver = driver_,
+            .why = why_,
+            .threads = 0,
+            .in_software = is_software()};
+}
+
 bool OpenGlContext::is_software() const noexcept {
     for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR", "lavapipe", "Software Rasterizer"}) {
         if (renderer_.find(name) != std::string::npos) return true;
@@ -280,16 +265,18 @@ bool OpenGlContext::is_software() const noexcept {
     return false;
 }
 
-std::vector<GlProbe> probe_gl() {
-    std::vector<GlProbe> probes;
+std::vector<DeviceInfo> probe_gl() {
+    std::vector<DeviceInfo> probes;
     const auto refuse = [&probes](const std::string& why) {
-        probes.push_back({{.kind = DeviceKind::Gpu, .name = {}, .driver = {}, .why = why, .threads = 0}, false});
+        DeviceInfo& none = probes.emplace_back();
+        none.kind = DeviceKind::Gpu;
+        none.why = why;
     };
     if (!epoxy_has_egl()) {
         refuse(k_no_egl);
         return probes;
     }
-    const EglThreadState callers;
+    const CallersContext callers;
     const std::vector<EglCandidate> last = surfaceless_candidates();
     const EGLDisplay surfaceless = last.empty() ? EGL_NO_DISPLAY : last.front().display;
     for (const auto& candidates : {device_candidates(), last}) {
@@ -298,16 +285,12 @@ std::vector<GlProbe> probe_gl() {
                 const auto opened = candidate.open();
                 // The surfaceless platform mostly shows one of the devices again.
                 const bool again = candidate.display == surfaceless &&
-                                   std::any_of(probes.begin(), probes.end(), [&](const GlProbe& probe) {
-                                       return probe.info.name == opened->renderer();
+                                   std::any_of(probes.begin(), probes.end(), [&](const DeviceInfo& probe) {
+                                       return probe.name == opened->renderer();
                                    });
                 if (again) continue;
-                probes.push_back({{.kind = DeviceKind::Gpu,
-                                   .name = opened->renderer(),
-                                   .driver = opened->driver(),
-                                   .why = candidate.label,
-                                   .threads = 0},
-                                  opened->is_software()});
+                probes.push_back(opened->info());
+                probes.back().why = candidate.label;
             } catch (const Error& error) {
                 refuse(candidate.label + ": " + error.what());
             }
@@ -315,8 +298,8 @@ std::vector<GlProbe> probe_gl() {
     }
     if (probes.empty()) refuse(k_no_platform);
     // The one that would be taken comes first, those that cannot be used last.
-    std::stable_sort(probes.begin(), probes.end(), [](const GlProbe& a, const GlProbe& b) {
-        const auto rank = [](const GlProbe& probe) { return probe.info.name.empty() ? 2 : probe.software ? 1 : 0; };
+    std::stable_sort(probes.begin(), probes.end(), [](const DeviceInfo& a, const DeviceInfo& b) {
+        const auto rank = [](const DeviceInfo& probe) { return probe.name.empty() ? 2 : probe.in_software ? 1 : 0; };
         return rank(a) < rank(b);
     });
     return probes;

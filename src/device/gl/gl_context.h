@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include <talus/settings.h>
+#include <talus/world.h>
 
 namespace talus::engine {
 
@@ -30,8 +30,7 @@ public:
     bool is_debug() const noexcept { return debug_; }
     bool is_software() const noexcept;
     const std::string& renderer() const noexcept { return renderer_; }
-    const std::string& driver() const noexcept { return driver_; }
-    const std::string& why() const noexcept { return why_; }
+    DeviceInfo info() const;
 
     /// What the device is doing, for debug messages.
     const char* activity = "set-up";

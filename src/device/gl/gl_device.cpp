@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "device/gl/callers_context.h"
+#include "device/gl/kernel_source.h"
+
 namespace talus::engine {
 namespace {
 
@@ -48,22 +51,16 @@ GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile) : conte
 }
 
 GlDevice::~GlDevice() {
+    const CallersContext callers(context_->is_own());
     try {
         context_->make_current();
         leave();
+        objects_.reset();
     } catch (const Error&) {
         // The caller's context is gone or elsewhere: freeing names now could hit another context's objects, and its own
         // went with it.
         static_cast<void>(objects_.release());
     }
-}
-
-DeviceInfo GlDevice::info() const {
-    return {.kind = DeviceKind::Gpu,
-            .name = context_->renderer(),
-            .driver = context_->driver(),
-            .why = context_->why(),
-            .threads = 0};
 }
 
 void GlDevice::grow(BufferId id, std::size_t bytes) {
@@ -257,6 +254,7 @@ void GlDevice::leave() {
 }
 
 std::unique_ptr<Device> make_gl_device(GlContext context, bool profile) {
+    check_kernel_folder();
     return std::make_unique<GlDevice>(context == GlContext::Own ? OpenGlContext::own() : OpenGlContext::current(),
                                       profile);
 }

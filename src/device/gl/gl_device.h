@@ -23,7 +23,7 @@ public:
     GlDevice(std::unique_ptr<OpenGlContext>, bool profile);
     ~GlDevice() override;
 
-    DeviceInfo info() const override;
+    DeviceInfo info() const override { return context_->info(); }
     bool loops_freely() const override { return !context_->is_software(); }
     void grow(BufferId, std::size_t bytes) override;
     std::size_t size(BufferId) const override;

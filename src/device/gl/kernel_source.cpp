@@ -18,10 +18,16 @@ namespace {
 
 constexpr std::string_view k_kernel_ending = ".comp.glsl";
 
-std::string shader_text(const std::string& path, std::string_view wanted_by) {
+/// Empty where TALUS_KERNEL_PATH is not set.
+std::filesystem::path kernel_folder() {
     const char* folder = std::getenv("TALUS_KERNEL_PATH");
-    if (folder != nullptr && *folder != '\0') {
-        if (std::ifstream file(std::filesystem::path(folder) / path, std::ios::binary); file) {
+    return folder != nullptr ? folder : "";
+}
+
+std::string shader_text(const std::string& path, std::string_view wanted_by) {
+    const std::filesystem::path folder = kernel_folder();
+    if (!folder.empty()) {
+        if (std::ifstream file(folder / path, std::ios::binary); file) {
             std::ostringstream text;
             text << file.rdbuf();
             return std::move(text).str();
@@ -32,8 +38,8 @@ std::string shader_text(const std::string& path, std::string_view wanted_by) {
     }
     std::string message = "no shader file '" + path + "', wanted by " + std::string(wanted_by) +
                           ": it is neither embedded in the library";
-    message += folder != nullptr && *folder != '\0' ? std::string(" nor below TALUS_KERNEL_PATH (") + folder + ")"
-                                                    : std::string(", and TALUS_KERNEL_PATH names no folder to look in");
+    message += folder.empty() ? std::string(", and TALUS_KERNEL_PATH names no folder to look in")
+                              : " nor below TALUS_KERNEL_PATH (" + folder.string() + ")";
     throw Error(message);
 }
 
@@ -87,6 +93,19 @@ std::vector<std::string> kernel_paths() {
             paths.emplace_back(file.path.substr(0, file.path.size() - k_kernel_ending.size()));
     }
     return paths;
+}
+
+void check_kernel_folder() {
+    const std::filesystem::path folder = kernel_folder();
+    if (folder.empty()) return;
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored))
+        throw Error("TALUS_KERNEL_PATH is '" + folder.string() +
+                    "', and there is no such folder; it must name the folder src of Talus's sources, or one like it");
+    const auto is_there = [&](const ShaderFile& file) { return std::filesystem::exists(folder / file.path, ignored); };
+    if (std::ranges::none_of(embedded_files(), is_there))
+        throw Error("TALUS_KERNEL_PATH is '" + folder.string() + "', which holds no shader of Talus; below it there " +
+                    "must be files such as " + std::string(embedded_files().front().path));
 }
 
 KernelSource kernel_source(std::string_view path) {

@@ -32,6 +32,10 @@ struct KernelSource {
     std::vector<Origin> lines;
 };
 
+/// Throws Error where TALUS_KERNEL_PATH (see kernel_source) is set and can change nothing: to be called once before
+/// kernels are made, since a wrong folder would otherwise pass unnoticed.
+void check_kernel_folder();
+
 /// Puts the kernel, all that it includes and the prelude of all kernels together. Files below the folder that the
 /// environment variable TALUS_KERNEL_PATH names replace the embedded ones of the same path, so that a kernel can be
 /// changed without building the library. Throws Error for a file that is in neither.
