@@ -29,7 +29,7 @@ struct StepPlan {
     uint substep_capacity = 0; ///< sub-steps that get launches
     uint iterations = 0;
     bool relax = false;
-    bool restitution = false; ///< some body bounces
+    uint restitution_passes = 0; ///< where some body bounces
 };
 
 /// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.

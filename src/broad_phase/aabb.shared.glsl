@@ -14,6 +14,7 @@ inline float contact_margin(BodyVelocity velocity, BodyShape shape, Parameters p
 
 inline bool is_present(BodyShape shape) { return (shape.type >> 8) != k_kind_absent; }
 inline bool is_movable(BodyShape shape) { return (shape.type >> 8) == k_kind_rigid; } // contacts push it
+inline bool is_sphere(BodyShape shape) { return (shape.type & 255u) == k_shape_sphere; }
 inline bool is_mover(BodyShape shape) { return is_movable(shape) || (shape.type >> 8) == k_kind_kinematic; }
 
 // Whether a body is where the caller has just put it. One that never moves is there anyway.

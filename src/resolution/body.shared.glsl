@@ -2,7 +2,7 @@
 // What the resolution does to one body: inertia, forces, gyroscopic torque, positions.
 
 // R diag(1/I) R^T, with R's columns the body's axes.
-inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movable, uint substeps)
+inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movable, bool is_round, uint substeps)
 {
     Axes r = rotation_axes(rotation);
     vec3 d = inverse_inertia;
@@ -20,7 +20,7 @@ inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movab
     m.xy = on * xy;
     m.xz = on * xz;
     m.yz = on * yz;
-    m.movable = movable ? 1u : 0u;
+    m.traits = (movable ? k_trait_movable : 0u) | (is_round ? k_trait_round : 0u);
     m.substeps = substeps;
     return m;
 }

@@ -17,7 +17,7 @@ void integrate_body(uint body, uint substep)
     if (substep > inertia.substeps || !is_mover(shapes[body])) return;
     BodyPose pose = poses[body];
     if ((pose.flags & k_body_frozen) != 0u) return;
-    float h = make_substep(inertia.substeps, false, parameters).h;
+    float h = substep_length(inertia.substeps, parameters);
     BodyVelocity velocity = load_velocity(body);
     BodyDelta delta = deltas[body]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
     if (substep > 0u) {

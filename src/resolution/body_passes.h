@@ -15,7 +15,7 @@ inline void integrate_body(CpuState& state, uint body, uint substep) {
     const BodyInertia& inertia = state.inertias[body];
     BodyPose& pose = state.poses[body];
     if (substep > inertia.substeps || !is_mover(state.shapes[body]) || (pose.flags & k_body_frozen) != 0) return;
-    const float h = make_substep(inertia.substeps, false, state.parameters).h;
+    const float h = substep_length(inertia.substeps, state.parameters);
     BodyVelocity velocity = state.velocities[body];
     BodyDelta& delta = state.deltas[body];
     if (substep > 0) delta = integrate_position(delta, velocity, h);

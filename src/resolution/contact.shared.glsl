@@ -12,6 +12,13 @@
 
 // ---- one row ----
 
+const uint k_traits_of_b = 4u; // bits that B's traits are shifted by in a constraint
+
+inline bool is_against_static(uint traits)
+{
+    return (traits & (traits >> k_traits_of_b) & k_trait_movable) == 0u;
+}
+
 struct Row {
     vec3 arm_a; // r x d: the part of the row's Jacobian that the angular velocity meets (equation 3.6)
     vec3 arm_b;
@@ -71,13 +78,17 @@ struct ManifoldRows {
     vec3 friction_mass; // t1, t2, twist
     vec4 lever;         // m, of each point from their middle
     float friction;
+    BodyInertia inertia_a;
+    BodyInertia inertia_b;
 };
 
 // The impulses that a manifold has accumulated in a sub-step.
 struct ManifoldImpulses {
     vec4 normal;   // N s
     vec4 most;     // N s, largest of all sub-steps: whether the point was hit at all
+    vec4 approach; // m/s along the normal before that largest impulse, negative when closing
     vec3 friction; // N s along t1 and t2, N m s about the normal
+    vec3 moment;   // N m s, see Slip
 };
 
 inline ManifoldRows make_rows(ContactConstraint c, ContactConstraintPoint p0, ContactConstraintPoint p1,
@@ -107,6 +118,8 @@ inline ManifoldRows make_rows(ContactConstraint c, ContactConstraintPoint p0, Co
     rows.friction_mass = vec3(c.tangent_mass_1, c.tangent_mass_2, c.twist_mass);
     rows.lever = vec4(p0.lever, p1.lever, p2.lever, p3.lever);
     rows.friction = c.friction;
+    rows.inertia_a = inertia_a;
+    rows.inertia_b = inertia_b;
     return rows;
 }
 
@@ -116,7 +129,9 @@ inline ManifoldImpulses make_impulses(ContactConstraint c, ContactConstraintPoin
     ManifoldImpulses impulses;
     impulses.normal = vec4(p0.normal_impulse, p1.normal_impulse, p2.normal_impulse, p3.normal_impulse);
     impulses.most = vec4(p0.max_normal_impulse, p1.max_normal_impulse, p2.max_normal_impulse, p3.max_normal_impulse);
+    impulses.approach = vec4(p0.approach_speed, p1.approach_speed, p2.approach_speed, p3.approach_speed);
     impulses.friction = vec3(c.tangent_impulse_1, c.tangent_impulse_2, c.twist_impulse);
+    impulses.moment = c.moment;
     return impulses;
 }
 
@@ -172,13 +187,14 @@ struct Approach {
     vec3 normal_b;
 };
 
-inline Approach measure_approach(vec3 n, BodyDelta a, BodyDelta b)
+// `traits`: the constraint's.
+inline Approach measure_approach(vec3 n, uint traits, BodyDelta a, BodyDelta b)
 {
     precise vec3 moved = b.position - a.position;
     Approach approach;
     approach.distance = dot3(moved, n);
-    approach.normal_a = rotate_back(a.rotation, n);
-    approach.normal_b = rotate_back(b.rotation, n);
+    approach.normal_a = (traits & k_trait_round) != 0u ? n : rotate_back(a.rotation, n);
+    approach.normal_b = (traits & (k_trait_round << k_traits_of_b)) != 0u ? n : rotate_back(b.rotation, n);
     return approach;
 }
 
@@ -189,6 +205,40 @@ inline float current_separation(ContactConstraintPoint point, Approach approach)
     precise float separation = point.base_separation + approach.distance + dot3(point.anchor_b, approach.normal_b) -
                                dot3(point.anchor_a, approach.normal_a);
     return separation;
+}
+
+// ---- slip ----
+//
+// A pair's anchors met in one point when the contact was found, and have moved apart since. An impulse that acts on the
+// two bodies at two points changes their angular momentum, so both are taken to be touched in one point: half way, or
+// where the body is that can be pushed, if the other cannot. The rows' arms stay as they are; what is missing, for all
+// rows alike, is the slip's part of the velocity, and the moment of the impulses about the anchors.
+
+struct Slip {
+    vec3 apart;  // m, from A's anchors to B's
+    float share_a; // of `apart` that A's arms are too short by
+    float share_b; // that B's arms are too long by
+};
+
+// `gap` and `traits`: the constraint's.
+inline Slip measure_slip(vec3 gap, uint traits, BodyDelta a, BodyDelta b)
+{
+    precise vec3 apart = gap + (b.position - a.position);
+    bool pushes_a = (traits & k_trait_movable) != 0u;
+    bool pushes_b = (traits & (k_trait_movable << k_traits_of_b)) != 0u;
+    Slip slip;
+    slip.apart = apart;
+    slip.share_a = pushes_a ? (pushes_b ? 0.5f : 0.0f) : 1.0f;
+    slip.share_b = pushes_b ? (pushes_a ? 0.5f : 0.0f) : 1.0f;
+    return slip;
+}
+
+// v_b - v_a without the rows' arms.
+inline vec3 relative_velocity(VelocityPair v, Slip slip)
+{
+    precise vec3 spin = v.a.angular * slip.share_a + v.b.angular * slip.share_b;
+    precise vec3 velocity = (v.b.linear - v.a.linear) - cross3(spin, slip.apart);
+    return velocity;
 }
 
 // ---- what the rows of a pass aim at ----
@@ -238,9 +288,9 @@ inline vec2 bounce_target(float approach_speed, float most_impulse, float normal
     return vec2(mass, offset);
 }
 
-inline NormalTarget make_bounce_target(vec4 approach_speed, ManifoldRows rows, ManifoldImpulses impulses,
-                                       float restitution, Parameters p)
+inline NormalTarget make_bounce_target(ManifoldRows rows, ManifoldImpulses impulses, float restitution, Parameters p)
 {
+    vec4 approach_speed = impulses.approach;
     vec4 most = impulses.most;
     vec4 impulse = impulses.normal;
     vec2 x = bounce_target(approach_speed.x, most.x, rows.normal_mass.x, impulse.x, restitution, p);
@@ -293,6 +343,7 @@ inline FrictionTarget make_friction_target(ManifoldRows rows, vec4 normal_impuls
 struct PassTarget {
     NormalTarget normal;
     FrictionTarget friction;
+    Slip slip;
 };
 
 // A body pair and its manifold in the midst of a pass.
@@ -303,19 +354,25 @@ struct ManifoldState {
 
 // ---- normal rows ----
 
+// For each lane, `yes` where a > b, otherwise `no`.
+inline vec4 where_larger(vec4 a, vec4 b, vec4 yes, vec4 no)
+{
+    return vec4(a.x > b.x ? yes.x : no.x, a.y > b.y ? yes.y : no.y, a.z > b.z ? yes.z : no.z, a.w > b.w ? yes.w : no.w);
+}
+
 // The normal rows one after the other (equation 3.14, accumulated and clamped to push only). What each impulse does to
 // the rows behind it comes from the coupling, so that the bodies' velocities are touched once.
-inline ManifoldState solve_normals(ManifoldState s, ManifoldRows rows, NormalTarget target)
+inline ManifoldState solve_normals(ManifoldState s, ManifoldRows rows, NormalTarget target, Slip slip)
 {
     vec3 w_a = s.velocities.a.angular;
     vec3 w_b = s.velocities.b.angular;
-    precise vec3 apart = s.velocities.b.linear - s.velocities.a.linear;
-    float linear = dot3(apart, rows.normal);
+    float linear = dot3(relative_velocity(s.velocities, slip), rows.normal);
     vec4 old = s.impulses.normal;
     float velocity_0 = row_velocity(rows.point_0, linear, w_a, w_b);
     precise float velocity_1 = row_velocity(rows.point_1, linear, w_a, w_b);
     precise float velocity_2 = row_velocity(rows.point_2, linear, w_a, w_b);
     precise float velocity_3 = row_velocity(rows.point_3, linear, w_a, w_b);
+    vec4 before = vec4(velocity_0, velocity_1, velocity_2, velocity_3);
 
     precise float impulse_0 = max(target.offset.x - target.mass.x * velocity_0, 0.0f);
     precise float change_0 = impulse_0 - old.x;
@@ -333,6 +390,7 @@ inline ManifoldState solve_normals(ManifoldState s, ManifoldRows rows, NormalTar
     precise float change_3 = impulse_3 - old.w;
 
     s.impulses.normal = vec4(impulse_0, impulse_1, impulse_2, impulse_3);
+    s.impulses.approach = where_larger(s.impulses.normal, s.impulses.most, before, s.impulses.approach);
     s.impulses.most = max(s.impulses.most, s.impulses.normal);
     s.velocities = apply_normals(s.velocities, rows, vec4(change_0, change_1, change_2, change_3));
     return s;
@@ -361,11 +419,11 @@ inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Friction
 
 // One pass over the friction rows. They come before the normal rows, as keeping bodies apart matters more and the last
 // row wins.
-inline ManifoldState solve_friction(ManifoldState s, ManifoldRows rows, FrictionTarget target)
+inline ManifoldState solve_friction(ManifoldState s, ManifoldRows rows, FrictionTarget target, Slip slip)
 {
     vec3 w_a = s.velocities.a.angular;
     vec3 w_b = s.velocities.b.angular;
-    precise vec3 apart = s.velocities.b.linear - s.velocities.a.linear;
+    vec3 apart = relative_velocity(s.velocities, slip);
     precise vec3 spin = w_b - w_a;
     vec3 velocity = vec3(row_velocity(rows.tangent_1, dot3(apart, rows.t1), w_a, w_b),
                          row_velocity(rows.tangent_2, dot3(apart, rows.t2), w_a, w_b), dot3(spin, rows.normal));
@@ -378,9 +436,33 @@ inline ManifoldState solve_friction(ManifoldState s, ManifoldRows rows, Friction
 
 // ---- passes ----
 
+// Brings the moment of the accumulated impulses up to the present slip.
+inline ManifoldState turn_by_slip(ManifoldState s, ManifoldRows rows, Slip slip)
+{
+    vec3 friction = s.impulses.friction;
+    precise vec3 impulse = rows.normal * sum4(s.impulses.normal) + (rows.t1 * friction.x + rows.t2 * friction.y);
+    vec3 moment = cross3(slip.apart, impulse);
+    precise vec3 change = moment - s.impulses.moment;
+    vec3 turn_a = multiply_inertia(rows.inertia_a, change);
+    vec3 turn_b = multiply_inertia(rows.inertia_b, change);
+    precise vec3 angular_a = s.velocities.a.angular - turn_a * slip.share_a;
+    precise vec3 angular_b = s.velocities.b.angular - turn_b * slip.share_b;
+    s.impulses.moment = moment;
+    s.velocities.a.angular = angular_a;
+    s.velocities.b.angular = angular_b;
+    return s;
+}
+
 inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
 {
-    return solve_normals(solve_friction(s, rows, target.friction), rows, target.normal);
+    s = solve_friction(s, rows, target.friction, target.slip);
+    s = solve_normals(s, rows, target.normal, target.slip);
+    return turn_by_slip(s, rows, target.slip);
+}
+
+inline ManifoldState bounce_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
+{
+    return turn_by_slip(solve_normals(s, rows, target.normal, target.slip), rows, target.slip);
 }
 
 // The accumulated impulses again, to start from.
@@ -396,6 +478,8 @@ inline VelocityPair warm_start_manifold(VelocityPair v, ManifoldRows rows, Manif
 inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, float inverse_masses,
                                           BodyInertia inertia_a, BodyInertia inertia_b)
 {
+    bool pushes_a = (inertia_a.traits & k_trait_movable) != 0u;
+    bool pushes_b = (inertia_b.traits & k_trait_movable) != 0u;
     ContactConstraint c;
     c.body_a = manifold.body_a;
     c.body_b = manifold.body_b;
@@ -408,10 +492,10 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.centre_b = vec3(0.0f, 0.0f, 0.0f);
     c.tangent_mass_2 = 0.0f;
     c.restitution = manifold.restitution;
-    c.against_static = (inertia_a.movable & inertia_b.movable) ^ 1u;
+    c.traits = inertia_a.traits | (inertia_b.traits << k_traits_of_b);
     c.twist_mass = 0.0f;
     c.inverse_masses = inverse_masses;
-    c.substeps = max(max(inertia_a.movable * inertia_a.substeps, inertia_b.movable * inertia_b.substeps), 1u);
+    c.substeps = max(max(pushes_a ? inertia_a.substeps : 1u, pushes_b ? inertia_b.substeps : 1u), 1u);
     precise float share = reciprocal(float(c.substeps));
     precise float tangent_impulse_1 = manifold.tangent_impulse_1 * share;
     precise float tangent_impulse_2 = manifold.tangent_impulse_2 * share;
@@ -419,6 +503,10 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.tangent_impulse_1 = tangent_impulse_1;
     c.tangent_impulse_2 = tangent_impulse_2;
     c.twist_impulse = twist_impulse;
+    c.moment = vec3(0.0f, 0.0f, 0.0f);
+    c.reserved_1 = 0.0f;
+    c.gap = vec3(0.0f, 0.0f, 0.0f);
+    c.reserved_2 = 0.0f;
     return c;
 }
 
@@ -430,8 +518,11 @@ inline ContactConstraint add_to_centre(ContactConstraint c, ManifoldPoint point)
     return c;
 }
 
-inline ContactConstraint finish_constraint(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)
+inline ContactConstraint finish_constraint(ContactConstraint c, vec3 position_a, vec3 position_b, BodyInertia inertia_a,
+                                           BodyInertia inertia_b)
 {
+    precise vec3 gap = (position_b - position_a) + (c.centre_b - c.centre_a);
+    c.gap = gap;
     Tangents t = contact_tangents(c.normal);
     Row tangent_1 = make_row(t.t1, c.centre_a, c.centre_b, inertia_a, inertia_b);
     Row tangent_2 = make_row(t.t2, c.centre_a, c.centre_b, inertia_a, inertia_b);
@@ -443,11 +534,10 @@ inline ContactConstraint finish_constraint(ContactConstraint c, BodyInertia iner
     return c;
 }
 
-inline ContactConstraintPoint prepare_point(ManifoldPoint old, ContactConstraint c, BodyVelocity a, BodyVelocity b,
-                                            BodyInertia inertia_a, BodyInertia inertia_b)
+inline ContactConstraintPoint prepare_point(ManifoldPoint old, ContactConstraint c, BodyInertia inertia_a,
+                                            BodyInertia inertia_b)
 {
     Row row = make_row(c.normal, old.anchor_a, old.anchor_b, inertia_a, inertia_b);
-    precise vec3 faster = b.linear - a.linear;
     precise vec3 apart = old.anchor_b - old.anchor_a;
     precise vec3 arm = old.anchor_a - c.centre_a;
     precise float base = old.separation - dot3(apart, c.normal);
@@ -458,9 +548,9 @@ inline ContactConstraintPoint prepare_point(ManifoldPoint old, ContactConstraint
     point.base_separation = base;
     point.normal_mass = row_mass(row, c.inverse_masses);
     point.lever = length3(arm);
-    point.approach_speed = row_velocity(row, dot3(faster, c.normal), a.angular, b.angular);
     point.normal_impulse = impulse;
     point.max_normal_impulse = 0.0f;
+    point.approach_speed = 0.0f;
     return point;
 }
 
@@ -473,9 +563,9 @@ inline ContactConstraintPoint no_point()
     point.anchor_b = vec3(0.0f, 0.0f, 0.0f);
     point.normal_mass = 0.0f;
     point.lever = 0.0f;
-    point.approach_speed = 0.0f;
     point.normal_impulse = 0.0f;
     point.max_normal_impulse = 0.0f;
+    point.approach_speed = 0.0f;
     return point;
 }
 

@@ -2,7 +2,8 @@
 // A contact constraint in an invocation's hand, and the passes over it. Before this file the kernel defines
 //   BodyVelocity load_velocity(uint body)
 //   void store_velocity(uint body, BodyVelocity velocity)
-// as velocities live in a buffer in one kernel and in shared memory in another. The CPU's counterpart is
+//   Substep substep_of(uint substeps, bool against_static)
+// as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
 // Reads: Inertias, Deltas. Reads and writes: Constraints, ConstraintPoints (their impulses).
 
@@ -19,8 +20,9 @@ const uint k_restitution = 3u;
 // The constraint in hand.
 uint body_a;
 uint body_b;
-bool against_static;
+uint traits;
 uint substeps;
+vec3 gap;
 ManifoldRows rows;
 ManifoldImpulses impulses;
 
@@ -35,10 +37,18 @@ void take_constraint(uint index)
     ContactConstraintPoint p3 = constraint_points[4u * index + 3u];
     body_a = c.body_a;
     body_b = c.body_b;
-    against_static = c.against_static == 1u;
+    traits = c.traits;
     substeps = c.substeps;
+    gap = c.gap;
     rows = make_rows(c, p0, p1, p2, p3, inertia_a, inertia_b);
     impulses = make_impulses(c, p0, p1, p2, p3);
+}
+
+void put_back_point(uint point, float impulse, float most, float approach)
+{
+    constraint_points[point].normal_impulse = impulse;
+    constraint_points[point].max_normal_impulse = most;
+    constraint_points[point].approach_speed = approach;
 }
 
 void put_back_impulses(uint index)
@@ -46,14 +56,11 @@ void put_back_impulses(uint index)
     constraints[index].tangent_impulse_1 = impulses.friction.x;
     constraints[index].tangent_impulse_2 = impulses.friction.y;
     constraints[index].twist_impulse = impulses.friction.z;
-    constraint_points[4u * index].normal_impulse = impulses.normal.x;
-    constraint_points[4u * index].max_normal_impulse = impulses.most.x;
-    constraint_points[4u * index + 1u].normal_impulse = impulses.normal.y;
-    constraint_points[4u * index + 1u].max_normal_impulse = impulses.most.y;
-    constraint_points[4u * index + 2u].normal_impulse = impulses.normal.z;
-    constraint_points[4u * index + 2u].max_normal_impulse = impulses.most.z;
-    constraint_points[4u * index + 3u].normal_impulse = impulses.normal.w;
-    constraint_points[4u * index + 3u].max_normal_impulse = impulses.most.w;
+    constraints[index].moment = impulses.moment;
+    put_back_point(4u * index, impulses.normal.x, impulses.most.x, impulses.approach.x);
+    put_back_point(4u * index + 1u, impulses.normal.y, impulses.most.y, impulses.approach.y);
+    put_back_point(4u * index + 2u, impulses.normal.z, impulses.most.z, impulses.approach.z);
+    put_back_point(4u * index + 3u, impulses.normal.w, impulses.most.w, impulses.approach.w);
 }
 
 float separation_of(uint point, Approach approach)
@@ -66,20 +73,17 @@ PassTarget target_of_pass(uint pass, uint index)
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     uint point = 4u * index;
-    if (pass == k_restitution) {
-        vec4 approach_speed = vec4(constraint_points[point].approach_speed, constraint_points[point + 1u].approach_speed,
-                                   constraint_points[point + 2u].approach_speed,
-                                   constraint_points[point + 3u].approach_speed);
-        target.normal =
-            make_bounce_target(approach_speed, rows, impulses, constraints[index].restitution, parameters);
-        return target;
-    }
     BodyDelta delta_a = deltas[body_a]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
     BodyDelta delta_b = deltas[body_b];
-    Approach approach = measure_approach(rows.normal, delta_a, delta_b);
+    target.slip = measure_slip(gap, traits, delta_a, delta_b);
+    if (pass == k_restitution) {
+        target.normal = make_bounce_target(rows, impulses, constraints[index].restitution, parameters);
+        return target;
+    }
+    Approach approach = measure_approach(rows.normal, traits, delta_a, delta_b);
     vec4 separation = vec4(separation_of(point, approach), separation_of(point + 1u, approach),
                            separation_of(point + 2u, approach), separation_of(point + 3u, approach));
-    Substep substep = make_substep(substeps, against_static, parameters);
+    Substep substep = substep_of(substeps, is_against_static(traits));
     target.normal = make_normal_target(separation, rows, impulses.normal, pass == k_solve, substep.soft, substep.inv_h,
                                        parameters);
     return target;
@@ -95,7 +99,7 @@ void pass_over_constraint(uint pass, PassTarget target)
     if (pass == k_warm_start)
         s.velocities = warm_start_manifold(s.velocities, rows, impulses);
     else if (pass == k_restitution)
-        s = solve_normals(s, rows, target.normal);
+        s = bounce_manifold(s, rows, target);
     else
         s = solve_manifold(s, rows, target);
     impulses = s.impulses;

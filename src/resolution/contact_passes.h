@@ -20,16 +20,15 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     const Parameters& p = state.parameters;
     PassTarget target{};
     target.friction = make_friction_target(rows, impulses.normal);
+    target.slip = measure_slip(c.gap, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
     if (pass == ContactPass::Restitution) {
-        const vec4 approach_speed(points[0].approach_speed, points[1].approach_speed, points[2].approach_speed,
-                                  points[3].approach_speed);
-        target.normal = make_bounce_target(approach_speed, rows, impulses, c.restitution, p);
+        target.normal = make_bounce_target(rows, impulses, c.restitution, p);
         return target;
     }
-    const Approach approach = measure_approach(c.normal, state.deltas[c.body_a], state.deltas[c.body_b]);
+    const Approach approach = measure_approach(c.normal, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
     const vec4 separation(current_separation(points[0], approach), current_separation(points[1], approach),
                           current_separation(points[2], approach), current_separation(points[3], approach));
-    const Substep substep = make_substep(c.substeps, c.against_static == 1, p);
+    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), p);
     target.normal = make_normal_target(separation, rows, impulses.normal, pass == ContactPass::Solve, substep.soft,
                                        substep.inv_h, p);
     return target;
@@ -47,13 +46,15 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep
         s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
     } else {
         const PassTarget target = target_of_pass(state, pass, c, points, rows, s.impulses);
-        s = pass == ContactPass::Restitution ? solve_normals(s, rows, target.normal) : solve_manifold(s, rows, target);
+        s = pass == ContactPass::Restitution ? bounce_manifold(s, rows, target) : solve_manifold(s, rows, target);
         c.tangent_impulse_1 = s.impulses.friction.x;
         c.tangent_impulse_2 = s.impulses.friction.y;
         c.twist_impulse = s.impulses.friction.z;
+        c.moment = s.impulses.moment;
         for (int i = 0; i < 4; ++i) {
             points[i].normal_impulse = s.impulses.normal[i];
             points[i].max_normal_impulse = s.impulses.most[i];
+            points[i].approach_speed = s.impulses.approach[i];
         }
     }
     // A body that contacts cannot push may be in many constraints of one colour: nobody writes it.

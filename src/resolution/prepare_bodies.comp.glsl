@@ -28,7 +28,8 @@ void main()
     BodyPose pose = poses[body];
     bool movable = is_movable(shapes[body]) && (pose.flags & k_body_frozen) == 0u;
     uint its_substeps = args.x == 1u ? substeps[body] : counters[k_counter_substep_demand];
-    inertias[body] = world_inertia(pose.rotation, properties[body].inverse_inertia, movable, its_substeps);
+    inertias[body] = world_inertia(pose.rotation, properties[body].inverse_inertia, movable, is_sphere(shapes[body]),
+                                   its_substeps);
     deltas[body] = no_delta();
     warm_starts[body] = no_warm_start(velocities[body]);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
-// Reads: Counters, ManifoldOrder, Manifolds, ManifoldPoints, Velocities, Inertias.
+// Reads: Counters, Poses, ManifoldOrder, Manifolds, ManifoldPoints, Velocities, Inertias.
 // Writes: Constraints, ConstraintPoints.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
@@ -13,6 +13,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) readonly buffer Poses { BodyPose poses[]; };
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer ManifoldPoints { ManifoldPoint manifold_points[]; };
@@ -29,19 +30,18 @@ void main()
     Manifold manifold = manifolds[manifold_index];
     BodyInertia inertia_a = inertias[manifold.body_a];
     BodyInertia inertia_b = inertias[manifold.body_b];
-    BodyVelocity velocity_a = velocities[manifold.body_a];
-    BodyVelocity velocity_b = velocities[manifold.body_b];
-    precise float inverse_masses = velocity_a.inverse_mass + velocity_b.inverse_mass;
+    precise float inverse_masses =
+        velocities[manifold.body_a].inverse_mass + velocities[manifold.body_b].inverse_mass;
     ContactConstraint c = begin_constraint(manifold, manifold_index, inverse_masses, inertia_a, inertia_b);
     for (uint i = 0u; i < manifold.point_count; ++i)
         c = add_to_centre(c, manifold_points[4u * manifold_index + i]);
-    c = finish_constraint(c, inertia_a, inertia_b);
+    c = finish_constraint(c, poses[manifold.body_a].position, poses[manifold.body_b].position, inertia_a, inertia_b);
     constraints[index] = c;
     for (uint i = 0u; i < 4u; ++i) {
         ContactConstraintPoint point = no_point();
         if (i < manifold.point_count) {
             ManifoldPoint old = manifold_points[4u * manifold_index + i];
-            point = prepare_point(old, c, velocity_a, velocity_b, inertia_a, inertia_b);
+            point = prepare_point(old, c, inertia_a, inertia_b);
         }
         constraint_points[4u * index + i] = point;
     }

@@ -49,7 +49,7 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 
 void solve(Device& device, const StepPlan& plan) {
     if (plan.in_groups) {
-        device.run({.kernel = solve_islands, .slot = k_dispatch_islands, .args = {plan.restitution}});
+        device.run({.kernel = solve_islands, .slot = k_dispatch_islands, .args = {plan.restitution_passes}});
         return;
     }
     for (uint substep = 0; substep < plan.substep_capacity; ++substep) {
@@ -61,7 +61,8 @@ void solve(Device& device, const StepPlan& plan) {
     }
     device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {plan.substep_capacity}});
     if (plan.relax) pass_over_contacts(device, plan, ContactPass::Relax);
-    if (plan.restitution) pass_over_contacts(device, plan, ContactPass::Restitution);
+    for (uint i = 0; i < plan.restitution_passes; ++i)
+        pass_over_contacts(device, plan, ContactPass::Restitution);
 }
 
 void store_impulses(Device& device) {

@@ -23,12 +23,17 @@ inline Softness soft_row(float w, float z, float h)
     return soft;
 }
 
-// One of the equal parts of a step.
+// What a contact needs to know of one of the equal parts of a step.
 struct Substep {
-    float h;     // s
     float inv_h; // 1/s
     Softness soft;
 };
+
+inline float substep_length(uint substeps, Parameters p)
+{
+    precise float h = p.dt * reciprocal(float(substeps));
+    return h;
+}
 
 // A contact's frequency is an eighth of the sub-step rate, the stiffest that does not ring, and at most
 // contact_frequency (rad/s); twice that against a body that cannot be pushed. Baumgarte's rows are rigid, with the
@@ -36,9 +41,8 @@ struct Substep {
 inline Substep make_substep(uint substeps, bool against_static, Parameters p)
 {
     Substep s;
-    precise float h = p.dt * reciprocal(float(substeps));
+    float h = substep_length(substeps, p);
     precise float inv_h = p.inv_dt * float(substeps);
-    s.h = h;
     s.inv_h = inv_h;
     if (p.baumgarte > 0.0f) {
         precise float rate = p.baumgarte * inv_h;

@@ -19,6 +19,7 @@ layout(std430) buffer Velocities { BodyVelocity velocities[]; };
 
 BodyVelocity load_velocity(uint body) { return velocities[body]; }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = velocity; }
+Substep substep_of(uint substeps, bool against_static) { return make_substep(substeps, against_static, parameters); }
 
 #include "resolution/contact_passes.glsl"
 

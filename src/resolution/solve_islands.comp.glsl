@@ -4,7 +4,7 @@
 // islands do not touch each other. There is a group for each body slot; those that lead no island end at once.
 // An invocation keeps the manifold that it has in hand from pass to pass. Where there are more manifolds than
 // invocations it takes the next one before it waits for the others, so that nobody waits for memory.
-// args.x: 1 where some body bounces, otherwise 0.
+// args.x: passes of restitution.
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints and ConstraintPoints (impulses); Poses (flags) and Counters where a
 // body is frozen.
@@ -27,6 +27,8 @@ layout(std430) buffer Velocities { BodyVelocity velocities[]; };
 
 shared vec4 linear_and_inverse_mass[k_island_bodies];
 shared float angular[3u * k_island_bodies];
+shared Substep substep_of_moving;
+shared Substep substep_against_static;
 shared uint colour_offsets[k_max_colours + 2u]; // where the island's manifolds of each colour begin; the overflow set last
 
 BodyVelocity load_velocity(uint body)
@@ -45,6 +47,12 @@ void store_velocity(uint body, BodyVelocity velocity)
     angular[3u * body] = velocity.angular.x;
     angular[3u * body + 1u] = velocity.angular.y;
     angular[3u * body + 2u] = velocity.angular.z;
+}
+
+Substep substep_of(uint substeps, bool against_static)
+{
+    if (against_static) return substep_against_static;
+    return substep_of_moving;
 }
 
 #include "resolution/contact_passes.glsl"
@@ -119,6 +127,11 @@ void main()
     uint me = gl_LocalInvocationID.x;
     uint island = group_index();
     if (islands[island] != island) return;
+    uint last = inertias[island].substeps;
+    if (me == 0u) {
+        substep_of_moving = make_substep(last, false, parameters);
+        substep_against_static = make_substep(last, true, parameters);
+    }
     if (me < k_max_colours + 2u) colour_offsets[me] = count_below(manifold_key(island, me));
     // Of other islands' bodies nothing is read; static ones have no island.
     uint own_bodies = 0u; // a bit for each body slot that is this invocation's
@@ -135,7 +148,6 @@ void main()
     in_hand = k_none;
     take(first_index);
 
-    uint last = inertias[island].substeps;
     for (uint substep = 0u; substep <= last; ++substep) {
         for (uint i = 0u; own_bodies >> i != 0u; ++i) {
             if (((own_bodies >> i) & 1u) == 1u) integrate_body(me + i * gl_WorkGroupSize.x, substep);
@@ -148,7 +160,8 @@ void main()
             pass_over_contacts(k_solve);
     }
     if (parameters.relax == 1u) pass_over_contacts(k_relax);
-    if (args.x == 1u) pass_over_contacts(k_restitution);
+    for (uint i = 0u; i < args.x; ++i)
+        pass_over_contacts(k_restitution);
 
     if (in_hand != k_none) put_back_impulses(in_hand);
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {

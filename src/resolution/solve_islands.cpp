@@ -31,7 +31,7 @@ std::vector<Island> collect_islands(const CpuState& state) {
     return islands;
 }
 
-void solve_island(CpuState& state, const Island& island, bool some_bounce) {
+void solve_island(CpuState& state, const Island& island, uint restitution_passes) {
     const Parameters& p = state.parameters;
     const auto over_contacts = [&](ContactPass pass, uint substep = 0) {
         for (uint index = island.first; index < island.end; ++index)
@@ -47,13 +47,14 @@ void solve_island(CpuState& state, const Island& island, bool some_bounce) {
             over_contacts(ContactPass::Solve, substep);
     }
     if (p.relax == 1) over_contacts(ContactPass::Relax);
-    if (some_bounce) over_contacts(ContactPass::Restitution);
+    for (uint i = 0; i < restitution_passes; ++i)
+        over_contacts(ContactPass::Restitution);
 }
 
 void solve_islands_on_cpu(CpuState& state, const Launch& launch) {
     const std::vector<Island> islands = collect_islands(state);
     state.parallel(
-        static_cast<uint>(islands.size()), [&](uint i) { solve_island(state, islands[i], launch.args[0] == 1); }, 2);
+        static_cast<uint>(islands.size()), [&](uint i) { solve_island(state, islands[i], launch.args[0]); }, 2);
 }
 
 } // namespace

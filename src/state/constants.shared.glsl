@@ -19,6 +19,10 @@ const uint k_kind_absent = 255u; // an empty body slot
 const uint k_body_frozen = 1u; // went non-finite; stays where it was
 const uint k_body_placed = 2u; // the caller put it there since the last step
 
+// BodyInertia::traits
+const uint k_trait_movable = 1u; // contacts can push the body
+const uint k_trait_round = 2u;   // a sphere: where it is touched does not turn with it
+
 // BodyProperties::combine
 const uint k_combine_average = 0u;
 const uint k_combine_minimum = 1u;

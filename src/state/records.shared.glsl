@@ -82,7 +82,7 @@ struct BodyInertia {
     float xy;
     float xz;
     float yz;
-    uint movable;  // 1 where contacts can push the body
+    uint traits;   // k_trait_*
     uint substeps; // sub-steps of its island
 };
 
@@ -122,7 +122,7 @@ struct ManifoldPoint {
     float normal_impulse; // N s, over the step
 };
 
-// 96 bytes, one a manifold, in the order of the solve: what the solver reads of it.
+// 128 bytes, one a manifold, in the order of the solve: what the solver reads of it.
 struct ContactConstraint {
     uint body_a;
     uint body_b;
@@ -135,7 +135,7 @@ struct ContactConstraint {
     vec3 centre_b; // m, from B's centre
     float tangent_mass_2;
     float restitution;
-    uint against_static; // 1 where contacts can push only one of the two
+    uint traits;          // k_trait_* of A, and of B four bits higher
     float twist_mass;     // kg m^2, about the normal
     float inverse_masses; // 1/kg, the sum of both
     // What the solver's passes change.
@@ -143,6 +143,10 @@ struct ContactConstraint {
     float tangent_impulse_2;
     float twist_impulse; // N m s, accumulated
     uint substeps;
+    vec3 moment; // N m s: of the accumulated impulses, for the way that the bodies have come (contact.shared.glsl)
+    float reserved_1;
+    vec3 gap; // m, from A's anchors to B's at the start of the step
+    float reserved_2;
 };
 
 // 48 bytes, four a constraint.
@@ -152,9 +156,9 @@ struct ContactConstraintPoint {
     vec3 anchor_b;
     float normal_mass; // kg, effective mass along the normal (equation 3.15)
     float lever;          // m, from the middle of the points
-    float approach_speed; // m/s along the normal at the start of the step, negative when closing
-    float normal_impulse; // N s, accumulated
+    float normal_impulse;     // N s, accumulated
     float max_normal_impulse; // N s, largest of all sub-steps: whether the point was hit at all
+    float approach_speed;     // m/s along the normal before that largest impulse, negative when closing
 };
 
 // ---- control ----
