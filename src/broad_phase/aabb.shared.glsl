@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // World bounding boxes (thesis, section 3.2).
 
-// How far beyond its shape a body looks for contacts (m). Bodies that cross much of their own size in a step look as
-// far as they move, so that they cannot pass through what they would hit.
-inline float contact_margin(BodyVelocity velocity, BodyShape shape, Parameters p)
+// How far beyond its shape a body looks for contacts (m): as far as it moves in a step, so that it stops at what it hits
+// instead of in it.
+inline float contact_margin(BodyVelocity velocity, Parameters p)
 {
-    precise float travel = length3(velocity.linear) * p.dt;
-    vec3 half_size = shape.half_extents;
-    precise float smallest = 0.25f * min(half_size.x, min(half_size.y, half_size.z));
-    precise float margin = 0.5f * p.speculative_distance + (travel > smallest ? travel : 0.0f);
+    precise float margin = 0.5f * p.speculative_distance + length3(velocity.linear) * p.dt;
     return margin;
 }
 
@@ -32,7 +29,7 @@ inline Aabb compute_aabb(BodyPose pose, BodyVelocity velocity, BodyShape shape, 
         precise vec3 box_extent = abs(axes.x) * extent.x + abs(axes.y) * extent.y + abs(axes.z) * extent.z;
         extent = box_extent;
     }
-    float margin = contact_margin(velocity, shape, p);
+    float margin = contact_margin(velocity, p);
     precise vec3 reach = extent + vec3(margin, margin, margin);
     precise vec3 lower = pose.position - reach;
     precise vec3 upper = pose.position + reach;

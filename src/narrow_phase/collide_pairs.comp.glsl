@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3).
-// Reads: Counters, Pairs, Poses, Velocities, Shapes, Aabbs (for the margins), Properties, PairTable, OldManifolds,
+// Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds,
 // OldManifoldPoints.
 // Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints.
 // Needs: barriers after plan_pairs and fill_pair_table.
@@ -23,7 +23,6 @@ layout(std430) readonly buffer Pairs { Pair pairs[]; };
 layout(std430) readonly buffer Poses { BodyPose poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
-layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
 layout(std430) readonly buffer Properties { BodyProperties properties[]; };
 layout(std430) readonly buffer PairTable { uint pair_table[]; };
 layout(std430) readonly buffer OldManifolds { Manifold old_manifolds[]; };
@@ -69,8 +68,8 @@ void main()
     BodyPose pose_a = poses[pair.body_a];
     BodyPose pose_b = poses[pair.body_b];
     precise vec3 offset = pose_b.position - pose_a.position;
-    precise float max_separation = aabbs[pair.body_a].margin + aabbs[pair.body_b].margin;
     precise vec3 motion = (velocities[pair.body_b].linear - velocities[pair.body_a].linear) * parameters.dt;
+    precise float max_separation = parameters.speculative_distance + length3(motion);
     ContactGeometry g = collide_moving_shapes(pose_a, shapes[pair.body_a], pose_b, shapes[pair.body_b], motion,
                                               old_axis, max_separation);
     Manifold manifold = make_manifold(pair, g, old_colour, properties[pair.body_a], properties[pair.body_b]);

@@ -41,9 +41,9 @@ void collide_pair(CpuState& state, uint pair_index) {
     const BodyPose& pose_a = state.poses[pair.body_a];
     const BodyPose& pose_b = state.poses[pair.body_b];
     const vec3 offset = pose_b.position - pose_a.position;
-    const float max_separation = state.aabbs[pair.body_a].margin + state.aabbs[pair.body_b].margin;
     const vec3 motion =
         (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
+    const float max_separation = state.parameters.speculative_distance + length3(motion);
     const ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b,
                                                     state.shapes[pair.body_b], motion, old_axis, max_separation);
     Manifold& manifold = state.manifolds[pair_index];

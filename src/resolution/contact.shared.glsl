@@ -85,8 +85,8 @@ struct ManifoldRows {
 // The impulses that a manifold has accumulated in a sub-step.
 struct ManifoldImpulses {
     vec4 normal;   // N s
-    vec4 most;     // N s, largest of all sub-steps: whether the point was hit at all
-    vec4 approach; // m/s along the normal before that largest impulse, negative when closing
+    vec4 total;    // N s, the sum over all sub-steps
+    vec4 approach; // m/s along the normal, the fastest that an impulse met; negative when closing
     vec3 friction; // N s along t1 and t2, N m s about the normal
     vec3 moment;   // N m s, see Slip
 };
@@ -128,7 +128,7 @@ inline ManifoldImpulses make_impulses(ContactConstraint c, ContactConstraintPoin
 {
     ManifoldImpulses impulses;
     impulses.normal = vec4(p0.normal_impulse, p1.normal_impulse, p2.normal_impulse, p3.normal_impulse);
-    impulses.most = vec4(p0.max_normal_impulse, p1.max_normal_impulse, p2.max_normal_impulse, p3.max_normal_impulse);
+    impulses.total = vec4(p0.total_impulse, p1.total_impulse, p2.total_impulse, p3.total_impulse);
     impulses.approach = vec4(p0.approach_speed, p1.approach_speed, p2.approach_speed, p3.approach_speed);
     impulses.friction = vec3(c.tangent_impulse_1, c.tangent_impulse_2, c.twist_impulse);
     impulses.moment = c.moment;
@@ -245,10 +245,11 @@ inline vec3 relative_velocity(VelocityPair v, Slip slip)
 //
 // All of it is known before the bodies' velocities are, which matters where a pass waits for the one before.
 
-// The normal rows, put so that the new impulse is max(offset - mass (J V), 0).
+// The normal rows, put so that the new impulse is max(offset - mass (J V), lower).
 struct NormalTarget {
     vec4 mass;
     vec4 offset;
+    vec4 lower;
 };
 
 // One point's share: x the mass, y the offset. The bias velocity b is that of equation 3.7; see solver.md.
@@ -274,15 +275,27 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
     NormalTarget target;
     target.mass = vec4(x.x, y.x, z.x, w.x);
     target.offset = vec4(x.y, y.y, z.y, w.y);
+    target.lower = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     return target;
+}
+
+// Deep overlap is pushed apart in all sub-steps, and the speed that it has got by that is taken back by the relax pass, up
+// to the impulses of the whole step.
+const float k_fast_push = 0.2f; // m/s; what rests is pushed by a few centimetres a second
+
+inline float least_relaxed(ContactConstraintPoint point, vec3 n, float impulse, float total, Softness soft)
+{
+    precise float separation = point.base_separation + (dot3(point.anchor_b, n) - dot3(point.anchor_a, n));
+    precise float push = -soft.bias_rate * separation;
+    precise float least = impulse - total;
+    return push > k_fast_push ? min(least, 0.0f) : 0.0f;
 }
 
 // Restitution, once at the end of the step: a point that was hit faster than the threshold leaves with e times the
 // speed of its approach.
-inline vec2 bounce_target(float approach_speed, float most_impulse, float normal_mass, float impulse, float restitution,
-                          Parameters p)
+inline vec2 bounce_target(float approach_speed, float normal_mass, float impulse, float restitution, Parameters p)
 {
-    bool bounces = restitution > 0.0f && approach_speed < -p.restitution_threshold && most_impulse > 0.0f;
+    bool bounces = restitution > 0.0f && approach_speed < -p.restitution_threshold;
     float mass = bounces ? normal_mass : 0.0f;
     precise float offset = impulse - mass * (restitution * approach_speed);
     return vec2(mass, offset);
@@ -291,15 +304,15 @@ inline vec2 bounce_target(float approach_speed, float most_impulse, float normal
 inline NormalTarget make_bounce_target(ManifoldRows rows, ManifoldImpulses impulses, float restitution, Parameters p)
 {
     vec4 approach_speed = impulses.approach;
-    vec4 most = impulses.most;
     vec4 impulse = impulses.normal;
-    vec2 x = bounce_target(approach_speed.x, most.x, rows.normal_mass.x, impulse.x, restitution, p);
-    vec2 y = bounce_target(approach_speed.y, most.y, rows.normal_mass.y, impulse.y, restitution, p);
-    vec2 z = bounce_target(approach_speed.z, most.z, rows.normal_mass.z, impulse.z, restitution, p);
-    vec2 w = bounce_target(approach_speed.w, most.w, rows.normal_mass.w, impulse.w, restitution, p);
+    vec2 x = bounce_target(approach_speed.x, rows.normal_mass.x, impulse.x, restitution, p);
+    vec2 y = bounce_target(approach_speed.y, rows.normal_mass.y, impulse.y, restitution, p);
+    vec2 z = bounce_target(approach_speed.z, rows.normal_mass.z, impulse.z, restitution, p);
+    vec2 w = bounce_target(approach_speed.w, rows.normal_mass.w, impulse.w, restitution, p);
     NormalTarget target;
     target.mass = vec4(x.x, y.x, z.x, w.x);
     target.offset = vec4(x.y, y.y, z.y, w.y);
+    target.lower = min4(impulse, vec4(0.0f, 0.0f, 0.0f, 0.0f));
     return target;
 }
 
@@ -344,6 +357,7 @@ struct PassTarget {
     NormalTarget normal;
     FrictionTarget friction;
     Slip slip;
+    float old_share; // 1 where the impulses that a pass starts from are part of the step's sum already
 };
 
 // A body pair and its manifold in the midst of a pass.
@@ -354,45 +368,64 @@ struct ManifoldState {
 
 // ---- normal rows ----
 
-// For each lane, `yes` where a > b, otherwise `no`.
-inline vec4 where_larger(vec4 a, vec4 b, vec4 yes, vec4 no)
+inline vec4 faster_where_hit(vec4 fastest, vec4 approach, vec4 impulse)
 {
-    return vec4(a.x > b.x ? yes.x : no.x, a.y > b.y ? yes.y : no.y, a.z > b.z ? yes.z : no.z, a.w > b.w ? yes.w : no.w);
+    return vec4(impulse.x > 0.0f ? min(fastest.x, approach.x) : fastest.x,
+                impulse.y > 0.0f ? min(fastest.y, approach.y) : fastest.y,
+                impulse.z > 0.0f ? min(fastest.z, approach.z) : fastest.z,
+                impulse.w > 0.0f ? min(fastest.w, approach.w) : fastest.w);
 }
 
-// The normal rows one after the other (equation 3.14, accumulated and clamped to push only). What each impulse does to
-// the rows behind it comes from the coupling, so that the bodies' velocities are touched once.
+// Faster than this, a manifold is far from solved (m/s): it has been hit, or starts from the impulses of a hit.
+const float k_hit_speed = 0.25f;
+
+// The normal rows one after the other (equation 3.14, accumulated and clamped). What each impulse does to the other rows
+// comes from the coupling, so that the bodies' velocities are touched once. A hit is solved to the end here and now: one
+// sweep alone would leave a box that falls flat turning.
 inline ManifoldState solve_normals(ManifoldState s, ManifoldRows rows, NormalTarget target, Slip slip)
 {
     vec3 w_a = s.velocities.a.angular;
     vec3 w_b = s.velocities.b.angular;
     float linear = dot3(relative_velocity(s.velocities, slip), rows.normal);
     vec4 old = s.impulses.normal;
-    float velocity_0 = row_velocity(rows.point_0, linear, w_a, w_b);
+    // Without what the row's own impulse changes.
+    precise float velocity_0 = row_velocity(rows.point_0, linear, w_a, w_b);
     precise float velocity_1 = row_velocity(rows.point_1, linear, w_a, w_b);
     precise float velocity_2 = row_velocity(rows.point_2, linear, w_a, w_b);
     precise float velocity_3 = row_velocity(rows.point_3, linear, w_a, w_b);
-    vec4 before = vec4(velocity_0, velocity_1, velocity_2, velocity_3);
+    vec4 approach = vec4(velocity_0, velocity_1, velocity_2, velocity_3);
+    float fastest = max(max(abs(velocity_0), abs(velocity_1)), max(abs(velocity_2), abs(velocity_3)));
+    uint sweeps = fastest > k_hit_speed ? 8u : 1u;
 
-    precise float impulse_0 = max(target.offset.x - target.mass.x * velocity_0, 0.0f);
-    precise float change_0 = impulse_0 - old.x;
-    velocity_1 = velocity_1 + rows.coupling_0.x * change_0;
-    velocity_2 = velocity_2 + rows.coupling_0.y * change_0;
-    velocity_3 = velocity_3 + rows.coupling_0.z * change_0;
-    precise float impulse_1 = max(target.offset.y - target.mass.y * velocity_1, 0.0f);
-    precise float change_1 = impulse_1 - old.y;
-    velocity_2 = velocity_2 + rows.coupling_1.x * change_1;
-    velocity_3 = velocity_3 + rows.coupling_1.y * change_1;
-    precise float impulse_2 = max(target.offset.z - target.mass.z * velocity_2, 0.0f);
-    precise float change_2 = impulse_2 - old.z;
-    velocity_3 = velocity_3 + rows.coupling_1.z * change_2;
-    precise float impulse_3 = max(target.offset.w - target.mass.w * velocity_3, 0.0f);
-    precise float change_3 = impulse_3 - old.w;
+    vec4 impulse = old;
+    for (uint sweep = 0u; sweep < sweeps; sweep += 1u) {
+        precise float impulse_0 = max(target.offset.x - target.mass.x * velocity_0, target.lower.x);
+        precise float change_0 = impulse_0 - impulse.x;
+        velocity_1 = velocity_1 + rows.coupling_0.x * change_0;
+        velocity_2 = velocity_2 + rows.coupling_0.y * change_0;
+        velocity_3 = velocity_3 + rows.coupling_0.z * change_0;
+        precise float impulse_1 = max(target.offset.y - target.mass.y * velocity_1, target.lower.y);
+        precise float change_1 = impulse_1 - impulse.y;
+        velocity_0 = velocity_0 + rows.coupling_0.x * change_1;
+        velocity_2 = velocity_2 + rows.coupling_1.x * change_1;
+        velocity_3 = velocity_3 + rows.coupling_1.y * change_1;
+        precise float impulse_2 = max(target.offset.z - target.mass.z * velocity_2, target.lower.z);
+        precise float change_2 = impulse_2 - impulse.z;
+        velocity_0 = velocity_0 + rows.coupling_0.y * change_2;
+        velocity_1 = velocity_1 + rows.coupling_1.x * change_2;
+        velocity_3 = velocity_3 + rows.coupling_1.z * change_2;
+        precise float impulse_3 = max(target.offset.w - target.mass.w * velocity_3, target.lower.w);
+        precise float change_3 = impulse_3 - impulse.w;
+        velocity_0 = velocity_0 + rows.coupling_0.z * change_3;
+        velocity_1 = velocity_1 + rows.coupling_1.y * change_3;
+        velocity_2 = velocity_2 + rows.coupling_1.z * change_3;
+        impulse = vec4(impulse_0, impulse_1, impulse_2, impulse_3);
+    }
 
-    s.impulses.normal = vec4(impulse_0, impulse_1, impulse_2, impulse_3);
-    s.impulses.approach = where_larger(s.impulses.normal, s.impulses.most, before, s.impulses.approach);
-    s.impulses.most = max(s.impulses.most, s.impulses.normal);
-    s.velocities = apply_normals(s.velocities, rows, vec4(change_0, change_1, change_2, change_3));
+    precise vec4 change = impulse - old;
+    s.impulses.normal = impulse;
+    s.impulses.approach = faster_where_hit(s.impulses.approach, approach, impulse);
+    s.velocities = apply_normals(s.velocities, rows, change);
     return s;
 }
 
@@ -456,13 +489,23 @@ inline ManifoldState turn_by_slip(ManifoldState s, ManifoldRows rows, Slip slip)
 inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
 {
     s = solve_friction(s, rows, target.friction, target.slip);
+    vec4 old = s.impulses.normal;
     s = solve_normals(s, rows, target.normal, target.slip);
+    precise vec4 total = s.impulses.total + (s.impulses.normal - old * target.old_share);
+    s.impulses.total = total;
     return turn_by_slip(s, rows, target.slip);
 }
 
+// Without friction; the approach stays that of the hit.
 inline ManifoldState bounce_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
 {
-    return turn_by_slip(solve_normals(s, rows, target.normal, target.slip), rows, target.slip);
+    vec4 approach = s.impulses.approach;
+    vec4 old = s.impulses.normal;
+    s = solve_normals(s, rows, target.normal, target.slip);
+    precise vec4 total = s.impulses.total + (s.impulses.normal - old);
+    s.impulses.total = total;
+    s.impulses.approach = approach;
+    return turn_by_slip(s, rows, target.slip);
 }
 
 // The accumulated impulses again, to start from.
@@ -549,7 +592,7 @@ inline ContactConstraintPoint prepare_point(ManifoldPoint old, ContactConstraint
     point.normal_mass = row_mass(row, c.inverse_masses);
     point.lever = length3(arm);
     point.normal_impulse = impulse;
-    point.max_normal_impulse = 0.0f;
+    point.total_impulse = 0.0f;
     point.approach_speed = 0.0f;
     return point;
 }
@@ -564,12 +607,21 @@ inline ContactConstraintPoint no_point()
     point.normal_mass = 0.0f;
     point.lever = 0.0f;
     point.normal_impulse = 0.0f;
-    point.max_normal_impulse = 0.0f;
+    point.total_impulse = 0.0f;
     point.approach_speed = 0.0f;
     return point;
 }
 
 // ---- from a constraint back to its manifold ----
+
+// What a point passes on: the last sub-step's impulse, taken for all of them. One that was hit in the last sub-steps alone
+// must not be pushed as hard in all of the next step: then it is the sum.
+inline float impulse_of_step(ContactConstraintPoint point, ContactConstraint c)
+{
+    precise float lasting = point.normal_impulse * float(c.substeps);
+    precise float twice = 2.0f * point.total_impulse;
+    return max(lasting > twice ? point.total_impulse : lasting, 0.0f);
+}
 
 // Impulses of the whole step, and the sub-steps that their load asks for in the next one. The load is a running mean: an
 // impact is no reason for finer sub-steps.

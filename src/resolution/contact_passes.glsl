@@ -13,9 +13,10 @@ layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
 layout(std430) coherent buffer Deltas { BodyDelta deltas[]; };
 
 const uint k_warm_start = 0u;
-const uint k_solve = 1u; // with bias
-const uint k_relax = 2u; // without
-const uint k_restitution = 3u;
+const uint k_solve = 1u;       // with bias
+const uint k_solve_again = 2u; // further iterations in the same sub-step
+const uint k_relax = 3u;       // without bias
+const uint k_restitution = 4u;
 
 // The constraint in hand.
 uint body_a;
@@ -44,10 +45,10 @@ void take_constraint(uint index)
     impulses = make_impulses(c, p0, p1, p2, p3);
 }
 
-void put_back_point(uint point, float impulse, float most, float approach)
+void put_back_point(uint point, float impulse, float total, float approach)
 {
     constraint_points[point].normal_impulse = impulse;
-    constraint_points[point].max_normal_impulse = most;
+    constraint_points[point].total_impulse = total;
     constraint_points[point].approach_speed = approach;
 }
 
@@ -57,10 +58,10 @@ void put_back_impulses(uint index)
     constraints[index].tangent_impulse_2 = impulses.friction.y;
     constraints[index].twist_impulse = impulses.friction.z;
     constraints[index].moment = impulses.moment;
-    put_back_point(4u * index, impulses.normal.x, impulses.most.x, impulses.approach.x);
-    put_back_point(4u * index + 1u, impulses.normal.y, impulses.most.y, impulses.approach.y);
-    put_back_point(4u * index + 2u, impulses.normal.z, impulses.most.z, impulses.approach.z);
-    put_back_point(4u * index + 3u, impulses.normal.w, impulses.most.w, impulses.approach.w);
+    put_back_point(4u * index, impulses.normal.x, impulses.total.x, impulses.approach.x);
+    put_back_point(4u * index + 1u, impulses.normal.y, impulses.total.y, impulses.approach.y);
+    put_back_point(4u * index + 2u, impulses.normal.z, impulses.total.z, impulses.approach.z);
+    put_back_point(4u * index + 3u, impulses.normal.w, impulses.total.w, impulses.approach.w);
 }
 
 float separation_of(uint point, Approach approach)
@@ -68,10 +69,16 @@ float separation_of(uint point, Approach approach)
     return current_separation(constraint_points[point], approach);
 }
 
+float least_of(uint point, float impulse, float total, Softness soft)
+{
+    return least_relaxed(constraint_points[point], rows.normal, impulse, total, soft);
+}
+
 PassTarget target_of_pass(uint pass, uint index)
 {
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
+    target.old_share = pass == k_solve ? 0.0 : 1.0;
     uint point = 4u * index;
     BodyDelta delta_a = deltas[body_a]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
     BodyDelta delta_b = deltas[body_b];
@@ -84,8 +91,16 @@ PassTarget target_of_pass(uint pass, uint index)
     vec4 separation = vec4(separation_of(point, approach), separation_of(point + 1u, approach),
                            separation_of(point + 2u, approach), separation_of(point + 3u, approach));
     Substep substep = substep_of(substeps, is_against_static(traits));
-    target.normal = make_normal_target(separation, rows, impulses.normal, pass == k_solve, substep.soft, substep.inv_h,
+    target.normal = make_normal_target(separation, rows, impulses.normal, pass != k_relax, substep.soft, substep.inv_h,
                                        parameters);
+    if (pass == k_relax) {
+        vec4 impulse = impulses.normal;
+        vec4 total = impulses.total;
+        target.normal.lower = vec4(least_of(point, impulse.x, total.x, substep.soft),
+                                   least_of(point + 1u, impulse.y, total.y, substep.soft),
+                                   least_of(point + 2u, impulse.z, total.z, substep.soft),
+                                   least_of(point + 3u, impulse.w, total.w, substep.soft));
+    }
     return target;
 }
 

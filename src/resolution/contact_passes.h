@@ -9,8 +9,9 @@ namespace talus::engine {
 
 enum class ContactPass : uint {
     WarmStart,
-    Solve, ///< with bias
-    Relax, ///< without
+    Solve,      ///< with bias
+    SolveAgain, ///< further iterations in the same sub-step
+    Relax,      ///< without bias
     Restitution,
 };
 
@@ -20,6 +21,7 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     const Parameters& p = state.parameters;
     PassTarget target{};
     target.friction = make_friction_target(rows, impulses.normal);
+    target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
     target.slip = measure_slip(c.gap, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
     if (pass == ContactPass::Restitution) {
         target.normal = make_bounce_target(rows, impulses, c.restitution, p);
@@ -29,8 +31,12 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     const vec4 separation(current_separation(points[0], approach), current_separation(points[1], approach),
                           current_separation(points[2], approach), current_separation(points[3], approach));
     const Substep substep = make_substep(c.substeps, is_against_static(c.traits), p);
-    target.normal = make_normal_target(separation, rows, impulses.normal, pass == ContactPass::Solve, substep.soft,
+    target.normal = make_normal_target(separation, rows, impulses.normal, pass != ContactPass::Relax, substep.soft,
                                        substep.inv_h, p);
+    if (pass == ContactPass::Relax)
+        for (int i = 0; i < 4; ++i)
+            target.normal.lower[i] =
+                least_relaxed(points[i], c.normal, impulses.normal[i], impulses.total[i], substep.soft);
     return target;
 }
 
@@ -53,7 +59,7 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep
         c.moment = s.impulses.moment;
         for (int i = 0; i < 4; ++i) {
             points[i].normal_impulse = s.impulses.normal[i];
-            points[i].max_normal_impulse = s.impulses.most[i];
+            points[i].total_impulse = s.impulses.total[i];
             points[i].approach_speed = s.impulses.approach[i];
         }
     }

@@ -57,7 +57,7 @@ void solve(Device& device, const StepPlan& plan) {
         // Later sub-steps find their warm start body by body (body.shared.glsl).
         if (substep == 0) pass_over_contacts(device, plan, ContactPass::WarmStart);
         for (uint i = 0; i < plan.iterations; ++i)
-            pass_over_contacts(device, plan, ContactPass::Solve, substep);
+            pass_over_contacts(device, plan, i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
     }
     device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {plan.substep_capacity}});
     if (plan.relax) pass_over_contacts(device, plan, ContactPass::Relax);

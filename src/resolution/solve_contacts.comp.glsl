@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold of one colour: one pass of sequential impulses over its points (thesis, section 3.4).
-// args.x: the colour; args.y: the pass, k_warm_start, k_solve, k_relax or k_restitution; args.z: the sub-step. No two
+// args.x: the colour; args.y: the pass, k_warm_start, k_solve, ...; args.z: the sub-step. No two
 // manifolds of a colour share a body that they could push. The overflow set is solved one after the other by a single invocation.
 // Reads: ColourOffsets, Constraints, Inertias, Deltas.
 // Writes: Velocities, Constraints and ConstraintPoints (impulses).

@@ -157,7 +157,7 @@ void main()
         if (substep == last) break;
         if (substep == 0u) pass_over_contacts(k_warm_start);
         for (uint i = 0u; i < parameters.iterations; ++i)
-            pass_over_contacts(k_solve);
+            pass_over_contacts(i == 0u ? k_solve : k_solve_again);
     }
     if (parameters.relax == 1u) pass_over_contacts(k_relax);
     for (uint i = 0u; i < args.x; ++i)

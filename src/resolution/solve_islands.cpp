@@ -44,7 +44,7 @@ void solve_island(CpuState& state, const Island& island, uint restitution_passes
         if (substep == last) break;
         if (substep == 0) over_contacts(ContactPass::WarmStart);
         for (uint i = 0; i < p.iterations; ++i)
-            over_contacts(ContactPass::Solve, substep);
+            over_contacts(i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
     }
     if (p.relax == 1) over_contacts(ContactPass::Relax);
     for (uint i = 0; i < restitution_passes; ++i)

@@ -26,10 +26,10 @@ void main()
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
     ContactConstraint c = constraints[index];
-    precise float whole = float(c.substeps);
     vec4 impulse = vec4(0.0);
     for (uint i = 0u; i < c.point_count; ++i) {
-        precise float of_step = constraint_points[4u * index + i].normal_impulse * whole;
+        ContactConstraintPoint point = constraint_points[4u * index + i];
+        float of_step = impulse_of_step(point, c);
         manifold_points[4u * c.manifold + i].normal_impulse = of_step;
         impulse[i] = of_step;
     }

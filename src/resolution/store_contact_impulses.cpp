@@ -12,10 +12,9 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch&) {
         Manifold& manifold = state.manifolds[c.manifold];
         vec4 impulse(0.0f);
         for (uint i = 0; i < c.point_count; ++i) {
-            const std::size_t point = std::size_t{4} * index + i;
-            impulse[static_cast<int>(i)] =
-                state.constraint_points[point].normal_impulse * static_cast<float>(c.substeps);
-            state.manifold_points[std::size_t{4} * c.manifold + i].normal_impulse = impulse[static_cast<int>(i)];
+            const float of_step = impulse_of_step(state.constraint_points[std::size_t{4} * index + i], c);
+            state.manifold_points[std::size_t{4} * c.manifold + i].normal_impulse = of_step;
+            impulse[static_cast<int>(i)] = of_step;
         }
         manifold.colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
         manifold = finish_manifold(manifold, c, impulse, state.properties[c.body_a].inverse_mass,

@@ -48,6 +48,11 @@ inline float dot3(vec3 a, vec3 b)
     return r;
 }
 
+inline vec4 min4(vec4 a, vec4 b)
+{
+    return vec4(min(a.x, b.x), min(a.y, b.y), min(a.z, b.z), min(a.w, b.w));
+}
+
 inline float sum4(vec4 v)
 {
     precise float r = (v.x + v.y) + (v.z + v.w);

@@ -157,8 +157,8 @@ struct ContactConstraintPoint {
     float normal_mass; // kg, effective mass along the normal (equation 3.15)
     float lever;          // m, from the middle of the points
     float normal_impulse;     // N s, accumulated
-    float max_normal_impulse; // N s, largest of all sub-steps: whether the point was hit at all
-    float approach_speed;     // m/s along the normal before that largest impulse, negative when closing
+    float total_impulse;      // N s, the sum over all sub-steps
+    float approach_speed;     // m/s along the normal, the fastest that an impulse met; negative when closing
 };
 
 // ---- control ----
