@@ -82,7 +82,6 @@ RunReport make_report(const TimedRun& run) {
 }
 
 Json to_json(const RunReport& report) {
-    const bool soft = report.settings.stabilisation == Stabilisation::Soft;
     return {
         {"scene", report.scene},
         {"device",
@@ -92,7 +91,7 @@ Json to_json(const RunReport& report) {
         {"threads", report.device.threads},
         {"steps", report.timing.steps},
         {"dt", report.settings.dt},
-        {"substeps", soft ? report.settings.substeps : 1u},
+        {"substeps", report.last_step.substeps},
         {"iterations", report.settings.iterations},
         {"stabilisation", word_of(stabilisation_words(), report.settings.stabilisation)},
         {"broad_phase", word_of(broad_phase_words(), report.settings.broad_phase)},

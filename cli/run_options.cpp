@@ -96,7 +96,7 @@ void add_simulation_options(CLI::App& command, SimulationOptions& options) {
         ->check(CLI::Validator(check_seconds, ""))
         ->type_name("S");
     add_device_options(command, options);
-    command.add_option("--substeps", options.substeps, "Sub-steps of a step, for soft stabilisation; by default 4")
+    command.add_option("--substeps", options.substeps, "Sub-steps of every step, for soft stabilisation; by default 8, and as many as the load on an island asks for")
         ->check(CLI::Range(1u, 1000u))
         ->type_name("N");
     command
@@ -146,7 +146,7 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
 Settings settings_of(const scenes::Scene& scene, const SimulationOptions& options) {
     Settings settings = scene.settings;
     if (options.dt) settings.dt = *options.dt;
-    if (options.substeps) settings.substeps = *options.substeps;
+    if (options.substeps) settings.substeps = settings.max_substeps = *options.substeps;
     if (options.broad_phase) settings.broad_phase = *options.broad_phase;
     if (options.stabilisation) {
         settings.stabilisation = *options.stabilisation;

@@ -37,7 +37,7 @@ std::string step_text(const RunReport& report) {
     const bool soft = settings.stabilisation == Stabilisation::Soft;
     return fmt::format("{} of {:.5g} ms: {}, {}{}, broad phase {}, {}", report.timing.steps, settings.dt * 1e3,
                        word_of(stabilisation_words(), settings.stabilisation),
-                       soft ? counted(settings.substeps, "sub-step") + " of " : "",
+                       soft ? counted(report.last_step.substeps, "sub-step") + " of " : "",
                        counted(settings.iterations, "iteration"), word_of(broad_phase_words(), settings.broad_phase),
                        counted(report.last_step.growths, "growth"));
 }

@@ -11,21 +11,17 @@ namespace talus::scenes {
 
 namespace {
 
+/// Whole numbers are written out in full: 1000000, not 1e+06.
 std::string number_text(double value) {
+    if (value == std::floor(value)) return std::to_string(static_cast<long long>(value));
     char text[32];
     const auto [end, error] = std::to_chars(std::begin(text), std::end(text), value);
     return error == std::errc{} ? std::string(text, end) : std::string("?");
 }
 
-/// Integers of a parameter's range are written out in full: 1000000, not 1e+06.
-std::string number_text(double value, bool integer) {
-    return integer ? std::to_string(static_cast<long long>(value)) : number_text(value);
-}
-
 std::string allowed(const Parameter& parameter) {
-    return (parameter.integer ? "a whole number from " : "a number from ") +
-           number_text(parameter.minimum, parameter.integer) + " to " +
-           number_text(parameter.maximum, parameter.integer);
+    return (parameter.integer ? "a whole number from " : "a number from ") + number_text(parameter.minimum) + " to " +
+           number_text(parameter.maximum);
 }
 
 std::vector<std::string> parameter_names(const SceneInfo& info) {
@@ -87,16 +83,23 @@ Parameters::Parameters(const SceneInfo& scene, std::string_view text) : info(sce
     }
 }
 
-std::uint32_t Parameters::integer(std::string_view name) const {
+double Parameters::value_of(std::string_view name) const {
     const auto found = std::ranges::find(info.parameters, name, &Parameter::name);
-    return static_cast<std::uint32_t>(values.at(static_cast<std::size_t>(found - info.parameters.begin())));
+    return values.at(static_cast<std::size_t>(found - info.parameters.begin()));
+}
+
+std::uint32_t Parameters::integer(std::string_view name) const {
+    return static_cast<std::uint32_t>(value_of(name));
+}
+
+float Parameters::number(std::string_view name) const {
+    return static_cast<float>(value_of(name));
 }
 
 std::string Parameters::text() const {
     std::string result;
     for (std::size_t i = 0; i < values.size(); ++i)
-        result +=
-            (i == 0 ? "" : ",") + info.parameters[i].name + "=" + number_text(values[i], info.parameters[i].integer);
+        result += (i == 0 ? "" : ",") + info.parameters[i].name + "=" + number_text(values[i]);
     return result;
 }
 

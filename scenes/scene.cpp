@@ -24,6 +24,10 @@ Parameter whole(const char* name, double default_value, double minimum, double m
     return {name, default_value, minimum, maximum, true, meaning};
 }
 
+Parameter real(const char* name, double default_value, double minimum, double maximum, const char* meaning) {
+    return {name, default_value, minimum, maximum, false, meaning};
+}
+
 Parameter seed() {
     return whole("seed", 1, 0, 4294967295.0, "chooses the random numbers");
 }
@@ -53,6 +57,47 @@ const std::vector<BuiltIn>& built_in_scenes() {
           "boxes with edges of 0.5 to 1.5 m fall into a container",
           {whole("boxes", 32000, 1, 1'000'000, "how many boxes"), seed()}},
          make_pile},
+        {{"card_house", "a house of cards", {whole("levels", 5, 1, 30, "storeys")}}, make_card_house},
+        {{"dominoes",
+          "a row of dominoes, of which the first is falling",
+          {whole("count", 100, 1, 10'000, "how many dominoes"),
+           real("bend", 30, 0, 60, "how far the row swings from its line to each side, in degrees")}},
+         make_dominoes},
+        {{"slope",
+          "boxes on a tilted plate",
+          {real("angle", 20, 0, 60, "of the plate, in degrees"), real("friction", 0.5, 0, 10, "of boxes and plate"),
+           whole("boxes", 10, 1, 1000, "how many boxes")}},
+         make_slope},
+        {{"plate",
+          "a heavy plate that lies on a grid of boxes and carries as many",
+          {whole("boxes", 2000, 1, 100'000, "boxes below the plate, and as many on it")}},
+         make_plate},
+        {{"heavy_on_light",
+          "boxes that carry boxes of the same size and 1, 10, 100 ... times the mass, up to a ratio",
+          {real("ratio", 1000, 1, 1'000'000, "the largest mass carried, in masses of the box below")}},
+         make_heavy_on_light},
+        {{"brick_ring",
+          "a round wall of bricks, hit from inside by a rolling steel sphere",
+          {whole("courses", 40, 1, 80, "bricks on top of each other; the wall is one deeper for each four"),
+           whole("radius", 80, 20, 200, "of the inside, in metres")}},
+         make_brick_ring},
+        {{"brick_gables",
+          "rows of triangular brick walls and two steel spheres that roll through them",
+          {whole("across", 16, 1, 20, "walls side by side in a row"), whole("rows", 68, 1, 80, "rows of walls"),
+           whole("base", 30, 1, 35, "bricks in the lowest course of a wall")}},
+         make_brick_gables},
+        {{"many_pyramids",
+          "a square field of pyramids, each one box deep",
+          {whole("side", 14, 1, 30, "pyramids along each side"), whole("base", 10, 1, 40, "boxes in a lowest row")}},
+         make_many_pyramids},
+        {{"million",
+          "the pile with a million boxes",
+          {whole("boxes", 1'000'000, 1, 1'000'000, "how many boxes"), seed()}},
+         make_pile},
+        {{"worlds",
+          "many small worlds, each a block of columns four wide and four deep",
+          {whole("count", 64, 1, 10'000, "how many worlds"), whole("boxes", 64, 1, 160, "boxes in each")}},
+         make_worlds},
     };
     return scenes;
 }

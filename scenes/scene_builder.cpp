@@ -15,26 +15,41 @@ constexpr float k_sunk = 0.5f;              // m; a cube of 1 m is then wholly b
 
 } // namespace
 
-SceneBuilder::SceneBuilder(float half_x, float half_z, std::size_t expected_boxes)
-    : half_ground{half_x, 0.5f * k_ground_thickness, half_z} {
+SceneBuilder::SceneBuilder(float half_x, float half_z, std::size_t expected_boxes, float friction)
+    : half_ground{half_x, 0.5f * k_ground_thickness, half_z}, common_friction(friction) {
     scene.bodies.reserve(expected_boxes + 5);
     add_wall("ground", {-half_x, -k_ground_thickness, -half_z}, {half_x, 0.0f, half_z});
 }
 
-void SceneBuilder::add_wall(const char* name, Vec3 lower, Vec3 upper) {
+BodyDefinition& SceneBuilder::add_wall(const char* name, Vec3 lower, Vec3 upper) {
     BodyDefinition definition;
     definition.kind = BodyKind::Static;
     definition.shape = Box{{upper.x - lower.x, upper.y - lower.y, upper.z - lower.z}};
     definition.pose.position = {0.5f * (lower.x + upper.x), 0.5f * (lower.y + upper.y), 0.5f * (lower.z + upper.z)};
-    scene.bodies.push_back({name, definition});
+    return add(name, definition);
 }
 
-void SceneBuilder::add_box(Vec3 centre, Vec3 size, Quat rotation) {
+BodyDefinition& SceneBuilder::add_box(Vec3 centre, Vec3 size, Quat rotation) {
     BodyDefinition definition;
     definition.shape = Box{size};
     definition.pose = {centre, rotation};
-    scene.bodies.push_back({"box " + std::to_string(++box_count), definition});
     highest = std::max(highest, centre.y);
+    return add("box " + std::to_string(++box_count), definition);
+}
+
+BodyDefinition& SceneBuilder::add_sphere(Vec3 centre, float radius) {
+    BodyDefinition definition;
+    definition.shape = Sphere{radius};
+    definition.pose.position = centre;
+    highest = std::max(highest, centre.y);
+    return add("sphere " + std::to_string(++sphere_count), definition);
+}
+
+BodyDefinition& SceneBuilder::add(std::string name, const BodyDefinition& definition) {
+    scene.bodies.push_back({std::move(name), definition});
+    NamedBody& body = scene.bodies.back();
+    body.definition.material.friction = common_friction;
+    return body.definition;
 }
 
 Bounds SceneBuilder::bounds() const {

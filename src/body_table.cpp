@@ -89,7 +89,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
     const Material& material = definition.material;
     masses[slot] = rigid ? mass : std::numeric_limits<float>::infinity();
     inertias[slot] = inertia;
-    poses[slot] = {to_glm(definition.pose.position), 0, to_glm(definition.pose.rotation)};
+    poses[slot] = {to_glm(definition.pose.position), k_body_placed, to_glm(definition.pose.rotation)};
     velocities[slot] = {to_glm(definition.velocity.linear), rigid ? 1.0f / mass : 0.0f,
                         to_glm(definition.velocity.angular), 0.0f};
     shapes[slot] = pack_shape(definition.shape, definition.kind);

@@ -144,6 +144,7 @@ void check_settings(const Settings& settings) {
     check_finite(settings.gravity, where, "gravity");
     check_range(settings.dt, 1.0e-6f, 1.0f, where, "dt", " s");
     check_range(static_cast<float>(settings.substeps), 1.0f, 1000.0f, where, "substeps", "");
+    check_range(static_cast<float>(settings.max_substeps), 1.0f, 1000.0f, where, "max_substeps", "");
     check_range(static_cast<float>(settings.iterations), 1.0f, 10000.0f, where, "iterations", "");
     check_range(settings.contact_hertz, 1.0e-3f, 1.0e5f, where, "contact_hertz", " Hz");
     check_range(settings.contact_damping_ratio, 0.0f, 1.0e3f, where, "contact_damping_ratio", "");

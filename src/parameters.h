@@ -10,7 +10,8 @@ namespace talus::engine {
 
 /// Passes a step makes.
 struct Passes {
-    uint substeps;
+    uint least_substeps;
+    uint most_substeps;
     uint iterations;
     bool relax;
 };

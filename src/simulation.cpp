@@ -19,13 +19,16 @@ constexpr uint k_first_pairs = 256;
 constexpr uint k_first_colours = 8;
 // The ring keeps this many steps' results; one place stays free so that the newest finished step's are still there.
 constexpr std::size_t k_most_pending = k_ring_size - 1;
-// After so many steps launches for colours that none of them needed are given up.
-constexpr uint k_colour_window = 64;
+// Where all bodies have the same number of sub-steps, the heaviest load of a large world must not cost too much.
+constexpr uint k_most_substeps_of_all = 32;
+// After so many steps launches for colours and sub-steps that none of them needed are given up.
+constexpr uint k_demand_window = 64;
 
 constexpr std::array k_body_buffers{
     BufferId::Poses,       BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
     BufferId::Aabbs,       BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
     BufferId::SortedAabbs, BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,
+    BufferId::Substeps,
 };
 
 constexpr std::array k_pair_buffers{
@@ -139,12 +142,16 @@ StepPlan Simulation::plan_step(const Population& population) const {
     StepPlan now = plan;
     now.broad_phase = settings.broad_phase;
     now.body_count = population.slots;
-    now.substeps = passes.substeps;
     now.iterations = passes.iterations;
     now.relax = passes.relax;
     now.restitution = population.some_bounce;
-    now.by_island = population.slots <= k_island_bodies && placement.resolution->loops_freely();
-    now.one_island = population.some_kinematic || !placement.resolution->runs_groups_at_once();
+    now.by_island = population.slots <= k_island_bodies;
+    now.one_island = population.some_kinematic;
+    now.in_groups = now.by_island && placement.resolution->loops_freely();
+    now.least_substeps = passes.least_substeps;
+    now.most_substeps = now.by_island ? passes.most_substeps
+                                      : std::clamp(k_most_substeps_of_all, passes.least_substeps, passes.most_substeps);
+    now.substep_capacity = std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps);
     return now;
 }
 
@@ -189,6 +196,7 @@ void Simulation::finish_oldest() {
     report.contacts = counters[k_counter_contact_count];
     report.colours = counters[k_counter_colour_demand];
     report.overflow_manifolds = counters[k_counter_overflow_count];
+    report.substeps = counters[k_counter_substep_demand];
     report.frozen_bodies = counters[k_counter_frozen_bodies];
     report.growths = growths;
     const std::span<const double> stage_ms = device.stage_ms(done.ticket);
@@ -200,17 +208,20 @@ void Simulation::finish_oldest() {
             report.stage_ms[i] += detection_ms[i];
     }
     report.step_ms = std::accumulate(report.stage_ms.begin(), report.stage_ms.end(), 0.0);
-    follow_colours(report.colours, report.overflow_manifolds);
+    follow_demand(report.colours, report.overflow_manifolds, report.substeps);
 }
 
-void Simulation::follow_colours(uint colours, uint overflow) {
+void Simulation::follow_demand(uint colours, uint overflow, uint substeps) {
     if (overflow > 0) plan.overflow = true;
-    const uint wanted = std::min(colours + 1, k_max_colours); // one to spare
-    plan.colour_capacity = std::max(plan.colour_capacity, wanted);
-    window_colours = std::max(window_colours, wanted);
-    if (++window_steps < k_colour_window) return;
+    const uint wanted_colours = std::min(colours + 1, k_max_colours); // one to spare
+    plan.colour_capacity = std::max(plan.colour_capacity, wanted_colours);
+    plan.substep_capacity = std::max(plan.substep_capacity, substeps);
+    window_colours = std::max(window_colours, wanted_colours);
+    window_substeps = std::max(window_substeps, substeps);
+    if (++window_steps < k_demand_window) return;
     plan.colour_capacity = window_colours;
-    window_steps = window_colours = 0;
+    plan.substep_capacity = window_substeps;
+    window_steps = window_colours = window_substeps = 0;
 }
 
 void Simulation::make_room_for_pairs(uint demand) {
@@ -224,8 +235,9 @@ void Simulation::make_room_for_pairs(uint demand) {
 void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
-    if ((reasons & k_fit_colours) != 0)
-        follow_colours(counters[k_counter_colour_demand], counters[k_counter_overflow_count]);
+    if ((reasons & (k_fit_colours | k_fit_substeps)) != 0)
+        follow_demand(counters[k_counter_colour_demand], counters[k_counter_overflow_count],
+                      counters[k_counter_substep_demand]);
     ++growths;
     newest_has_poses = false; // the ring goes on, and soon has no room for that frame
 

@@ -65,7 +65,7 @@ private:
     void finish_oldest();
     void make_room_for_pairs(uint demand);
     void redo(std::span<const uint> counters);
-    void follow_colours(uint colours, uint overflow);
+    void follow_demand(uint colours, uint overflow, uint substeps);
 
     std::unique_ptr<Device> gpu;
     std::unique_ptr<Device> cpu;
@@ -78,8 +78,9 @@ private:
     std::deque<Pending> pending;
     std::uint64_t finished_count = 0;
     std::uint32_t growths = 0;
-    uint window_steps = 0;   ///< since colours were last counted
+    uint window_steps = 0;   ///< since the demand was last looked at
     uint window_colours = 0; ///< most colours since
+    uint window_substeps = 0;
     StepReport newest_report;
     Ticket newest_ticket = 0;
     bool newest_has_poses = false;

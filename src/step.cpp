@@ -20,7 +20,7 @@ void run_stage(Device& device, Stage stage, const StepPlan& plan) {
     case Stage::ConstraintGraph:
         return constraint_graph(device, plan); // manifolds -> batches without shared bodies
     case Stage::Prepare:
-        return prepare(device); // effective masses
+        return prepare(device, plan); // effective masses
     case Stage::Solve:
         return solve(device, plan); // sub-steps: velocities and movements
     case Stage::StoreImpulses:

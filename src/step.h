@@ -21,10 +21,12 @@ struct StepPlan {
     uint table_size = 0;      ///< slots of PairTable
     uint colour_capacity = 0; ///< colours that get launches
     bool overflow = false;    ///< the overflow set gets launches
-    bool by_island = false;   ///< small enough for one work group an island
-    bool one_island =
-        false; ///< islands are not told apart: it would not pay, or a kinematic body may be part of several
-    uint substeps = 0;
+    bool by_island = false;   ///< small enough for islands, each with sub-steps of its own
+    bool one_island = false;  ///< islands are not told apart: a kinematic body may be part of several
+    bool in_groups = false;   ///< one work group solves an island
+    uint least_substeps = 0;
+    uint most_substeps = 0;
+    uint substep_capacity = 0; ///< sub-steps that get launches
     uint iterations = 0;
     bool relax = false;
     bool restitution = false; ///< some body bounces

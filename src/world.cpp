@@ -74,7 +74,7 @@ struct World::Impl {
     /// For giving a body a velocity: one that was frozen moves again.
     void thaw(uint slot) {
         touch(slot, k_dirty_pose | k_dirty_velocity);
-        table.poses[slot].flags = 0;
+        table.poses[slot].flags &= ~k_body_frozen;
         table.velocities[slot].inverse_mass = table.properties[slot].inverse_mass;
     }
 
@@ -228,7 +228,7 @@ void World::set_pose(BodyId id, const Pose& pose) {
     const uint slot = impl_->slot_of(id, "set_pose");
     const Pose wanted = checked_pose(pose, name_of("set_pose", id));
     impl_->thaw(slot);
-    impl_->table.poses[slot] = {to_glm(wanted.position), 0, to_glm(wanted.rotation)};
+    impl_->table.poses[slot] = {to_glm(wanted.position), k_body_placed, to_glm(wanted.rotation)};
 }
 
 Velocity World::velocity(BodyId id) const {
@@ -302,7 +302,8 @@ void World::add_angular_impulse(BodyId id, Vec3 impulse) {
     check_finite(impulse, name_of("add_angular_impulse", id), "angular impulse");
     impl_->refresh();
     BodyTable& table = impl_->table;
-    const BodyInertia inertia = world_inertia(table.poses[slot].rotation, table.properties[slot].inverse_inertia, true);
+    const BodyInertia inertia =
+        world_inertia(table.poses[slot].rotation, table.properties[slot].inverse_inertia, true, 0);
     const vec3 angular = table.velocities[slot].angular + multiply_inertia(inertia, to_glm(impulse));
     check_finite(from_glm(angular), name_of("add_angular_impulse", id), "angular velocity after the impulse");
     impl_->thaw(slot);

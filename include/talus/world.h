@@ -18,6 +18,7 @@ struct StepReport {
     std::uint32_t manifolds = 0;
     std::uint32_t contacts = 0;           ///< contact points
     std::uint32_t colours = 0;            ///< batches of the constraint graph
+    std::uint32_t substeps = 0;           ///< most that an island had
     std::uint32_t overflow_manifolds = 0; ///< found no colour, solved one at a time
     std::uint32_t frozen_bodies = 0;      ///< bodies whose velocity became non-finite, in all steps so far
     std::uint32_t growths = 0;            ///< steps that were done again with larger buffers, in all steps so far

@@ -16,6 +16,12 @@ inline bool is_present(BodyShape shape) { return (shape.type >> 8) != k_kind_abs
 inline bool is_movable(BodyShape shape) { return (shape.type >> 8) == k_kind_rigid; } // contacts push it
 inline bool is_mover(BodyShape shape) { return is_movable(shape) || (shape.type >> 8) == k_kind_kinematic; }
 
+// Whether a body is where the caller has just put it. One that never moves is there anyway.
+inline bool is_placed(BodyPose pose, BodyShape shape)
+{
+    return (pose.flags & k_body_placed) != 0u || !is_mover(shape);
+}
+
 inline Aabb compute_aabb(BodyPose pose, BodyVelocity velocity, BodyShape shape, Parameters p)
 {
     vec3 extent = shape.half_extents;

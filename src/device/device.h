@@ -88,9 +88,6 @@ public:
     virtual ~Device() = default;
 
     virtual DeviceInfo info() const = 0;
-    /// Whether work groups run side by side, so that work which is divided among them is done sooner. Not so on the
-    /// CPU, nor on an OpenGL renderer in software.
-    virtual bool runs_groups_at_once() const { return false; }
     /// Whether a kernel's loops may be long. Mesa's renderers in software end an invocation's loops after 65,535 rounds
     /// in all, without a word.
     virtual bool loops_freely() const { return true; }

@@ -5,6 +5,8 @@
 // Needs: barriers after plan_pairs and fill_pair_table.
 // Overflow: none.
 #include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "resolution/softness.shared.glsl"
 #include "resolution/tangents.shared.glsl"
 #include "narrow_phase/contact_geometry.shared.glsl"
 #include "narrow_phase/collide_boxes.shared.glsl"
@@ -68,7 +70,10 @@ void main()
     ContactGeometry g =
         collide_shapes(pose_a, shapes[pair.body_a], pose_b, shapes[pair.body_b], old_axis, max_separation);
     Manifold manifold = make_manifold(pair, g, old_colour, properties[pair.body_a], properties[pair.body_b]);
-    if (old_index != k_none) manifold = carry_friction(manifold, old);
+    if (old_index != k_none)
+        manifold = carry_over(manifold, old);
+    else if (is_placed(pose_a, shapes[pair.body_a]) && is_placed(pose_b, shapes[pair.body_b]))
+        manifold = begin_trial(manifold, parameters);
     manifolds[pair_index] = manifold;
 
     PointMatch match = match_points(g, old_points, g.axis == old_axis);

@@ -46,7 +46,10 @@ void collide_pair(CpuState& state, uint pair_index) {
         collide_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b], old_axis, max_separation);
     Manifold& manifold = state.manifolds[pair_index];
     manifold = make_manifold(pair, g, old_colour, state.properties[pair.body_a], state.properties[pair.body_b]);
-    if (old_index != k_none) manifold = carry_friction(manifold, state.old_manifolds[old_index]);
+    if (old_index != k_none)
+        manifold = carry_over(manifold, state.old_manifolds[old_index]);
+    else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b]))
+        manifold = begin_trial(manifold, state.parameters);
 
     const PointMatch match = match_points(g, old_points, g.axis == old_axis);
     for (uint i = 0; i < g.count; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From two bodies to a manifold: the table of shape pairs, the material, and the impulses of the last step.
-// Needs resolution/tangents.shared.glsl.
+// Needs resolution/tangents.shared.glsl and resolution/softness.shared.glsl.
 
 // One entry a pair of shapes. A new shape adds its entries here.
 inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
@@ -128,6 +128,14 @@ inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, u
     return point;
 }
 
+// For bodies that the caller has just put together: the load is not known yet.
+inline Manifold begin_trial(Manifold manifold, Parameters p)
+{
+    manifold.substeps = p.most_substeps;
+    manifold.idle_steps = k_trial;
+    return manifold;
+}
+
 inline Manifold make_manifold(Pair pair, ContactGeometry g, uint old_colour, BodyProperties a, BodyProperties b)
 {
     Manifold manifold;
@@ -142,15 +150,15 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, uint old_colour, Bod
     manifold.tangent_impulse_1 = 0.0f;
     manifold.tangent_impulse_2 = 0.0f;
     manifold.twist_impulse = 0.0f;
-    manifold.reserved_1 = 0u;
-    manifold.reserved_2 = 0u;
-    manifold.reserved_3 = 0u;
+    manifold.weights = 0.0f;
+    manifold.substeps = 0u;
+    manifold.idle_steps = 0u;
     return manifold;
 }
 
-// Gives a new manifold the friction of the last step's. It is carried as a vector: the tangents of two normals that are
-// nearly the same may lie far apart.
-inline Manifold carry_friction(Manifold manifold, Manifold old)
+// Gives a new manifold the friction and the load of the last step's. Friction is carried as a vector: the tangents of
+// two normals that are nearly the same may lie far apart.
+inline Manifold carry_over(Manifold manifold, Manifold old)
 {
     Tangents t = contact_tangents(manifold.normal);
     Tangents old_t = contact_tangents(old.normal);
@@ -158,5 +166,8 @@ inline Manifold carry_friction(Manifold manifold, Manifold old)
     manifold.tangent_impulse_1 = dot3(sideways, t.t1);
     manifold.tangent_impulse_2 = dot3(sideways, t.t2);
     manifold.twist_impulse = old.twist_impulse;
+    manifold.weights = old.weights;
+    manifold.substeps = old.substeps;
+    manifold.idle_steps = old.idle_steps;
     return manifold;
 }

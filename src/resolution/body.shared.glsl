@@ -2,7 +2,7 @@
 // What the resolution does to one body: inertia, forces, gyroscopic torque, positions.
 
 // R diag(1/I) R^T, with R's columns the body's axes.
-inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movable)
+inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movable, uint substeps)
 {
     Axes r = rotation_axes(rotation);
     vec3 d = inverse_inertia;
@@ -21,7 +21,7 @@ inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movab
     m.xz = on * xz;
     m.yz = on * yz;
     m.movable = movable ? 1u : 0u;
-    m.reserved = 0u;
+    m.substeps = substeps;
     return m;
 }
 
@@ -109,23 +109,23 @@ inline float damping_factor(float damping, float h)
 // Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits; then
 // the warm start. `rotation` is the present one.
 inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm, vec4 rotation, BodyProperties body,
-                                       BodyInertia inertia, BodyLoad load, bool rigid, Parameters p)
+                                       BodyInertia inertia, BodyLoad load, bool rigid, float h, Parameters p)
 {
-    precise vec3 linear = velocity.linear + (p.gravity * body.gravity_scale + load.force * velocity.inverse_mass) * p.h;
+    precise vec3 linear = velocity.linear + (p.gravity * body.gravity_scale + load.force * velocity.inverse_mass) * h;
     if (!rigid) { // a kinematic body: gravity if its caller asked for it, nothing else
         velocity.linear = linear;
         return velocity;
     }
-    precise vec3 angular = velocity.angular + multiply_inertia(inertia, load.torque) * p.h;
-    float linear_factor = damping_factor(body.linear_damping, p.h);
-    float angular_factor = damping_factor(body.angular_damping, p.h);
+    precise vec3 angular = velocity.angular + multiply_inertia(inertia, load.torque) * h;
+    float linear_factor = damping_factor(body.linear_damping, h);
+    float angular_factor = damping_factor(body.angular_damping, h);
     angular = limit_length(angular, p.max_angular_speed);
     vec3 d = body.inverse_inertia;
     if (d.x != d.y || d.y != d.z) {
         vec3 local = rotate_back(rotation, angular);
-        precise float turn = 4.0f * length3(local) * p.h; // in quarters of a radian
+        precise float turn = 4.0f * length3(local) * h; // in quarters of a radian
         uint parts = uint(min(turn, 255.0f)) + 1u;
-        precise float part = p.h * reciprocal(float(parts));
+        precise float part = h * reciprocal(float(parts));
         for (uint i = 0u; i < parts; i += 1u)
             local = turn_freely(local, d, part);
         angular = rotate(rotation, local);
@@ -155,12 +155,14 @@ inline BodyDelta integrate_position(BodyDelta delta, BodyVelocity velocity, floa
     return delta;
 }
 
-// The pose at the end of the step. The delta turns the world, so it comes after the rotation that the body had.
+// The pose at the end of the step. The delta turns the world, so it comes after the rotation that the body had. Where it
+// is now, it has come by itself.
 inline BodyPose apply_delta(BodyPose pose, BodyDelta delta)
 {
     precise vec3 position = pose.position + delta.position;
     pose.position = position;
     pose.rotation = normalise_quaternion(multiply_quaternions(delta.rotation, pose.rotation));
+    pose.flags &= ~k_body_placed;
     return pose;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The passes over one body: integration of velocities and positions. Before this file the kernel defines load_velocity
-// and store_velocity, as for contact_passes.glsl, and declares Inertias and Deltas. The CPU's counterpart is
-// body_passes.h.
+// What a sub-step does to one body. Before this file the kernel defines load_velocity and store_velocity, as for
+// contact_passes.glsl, and declares Inertias, Deltas and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
 layout(std430) buffer Poses { BodyPose poses[]; };
@@ -10,35 +9,35 @@ layout(std430) readonly buffer Properties { BodyProperties properties[]; };
 layout(std430) readonly buffer Loads { BodyLoad loads[]; };
 layout(std430) buffer WarmStarts { BodyWarmStart warm_starts[]; };
 
-bool moves(uint body)
+// Ends the sub-step before `substep` with its movement, and begins `substep` with its forces: between the two nothing
+// happens. A body whose sub-steps are all done is left alone.
+void integrate_body(uint body, uint substep)
 {
-    return is_mover(shapes[body]) && (poses[body].flags & k_body_frozen) == 0u;
-}
-
-void integrate_body_velocity(uint body)
-{
-    if (!moves(body)) return;
-    BodyDelta delta = deltas[body];
-    vec4 rotation = multiply_quaternions(delta.rotation, poses[body].rotation);
+    BodyInertia inertia = inertias[body];
+    if (substep > inertia.substeps || !is_mover(shapes[body])) return;
+    BodyPose pose = poses[body];
+    if ((pose.flags & k_body_frozen) != 0u) return;
+    float h = make_substep(inertia.substeps, false, parameters).h;
     BodyVelocity velocity = load_velocity(body);
+    BodyDelta delta = deltas[body]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
+    if (substep > 0u) {
+        delta = integrate_position(delta, velocity, h);
+        deltas[body] = delta;
+    }
+    if (substep == inertia.substeps) return;
+
+    vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
     BodyWarmStart warm = gather_impulses(warm_starts[body], velocity);
-    velocity = integrate_velocity(velocity, warm, rotation, properties[body], inertias[body], loads[body],
-                                  is_movable(shapes[body]), parameters);
+    velocity = integrate_velocity(velocity, warm, rotation, properties[body], inertia, loads[body],
+                                  is_movable(shapes[body]), h, parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();
         warm = no_warm_start(velocity);
-        poses[body].flags |= k_body_frozen;
+        poses[body].flags = pose.flags | k_body_frozen;
         atomicAdd(counters[k_counter_frozen_bodies], 1u);
     }
     warm.linear_before = velocity.linear;
     warm.angular_before = velocity.angular;
     warm_starts[body] = warm;
     store_velocity(body, velocity);
-}
-
-void integrate_body_position(uint body)
-{
-    if (!moves(body)) return;
-    BodyDelta delta = deltas[body]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
-    deltas[body] = integrate_position(delta, load_velocity(body), parameters.h);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The passes over one body, for the CPU. The GPU's counterpart is body_passes.glsl.
+// What a sub-step does to one body, for the CPU. The GPU's counterpart is body_passes.glsl.
 #pragma once
 
 #include <atomic>
@@ -9,32 +9,32 @@
 
 namespace talus::engine {
 
-inline bool moves(const CpuState& state, uint body) {
-    return is_mover(state.shapes[body]) && (state.poses[body].flags & k_body_frozen) == 0;
-}
-
-inline void integrate_body_velocity(CpuState& state, uint body) {
-    if (!moves(state, body)) return;
-    const vec4 rotation = multiply_quaternions(state.deltas[body].rotation, state.poses[body].rotation);
+/// Ends the sub-step before `substep` with its movement, and begins `substep` with its forces: between the two nothing
+/// happens. A body whose sub-steps are all done is left alone.
+inline void integrate_body(CpuState& state, uint body, uint substep) {
+    const BodyInertia& inertia = state.inertias[body];
+    BodyPose& pose = state.poses[body];
+    if (substep > inertia.substeps || !is_mover(state.shapes[body]) || (pose.flags & k_body_frozen) != 0) return;
+    const float h = make_substep(inertia.substeps, false, state.parameters).h;
     BodyVelocity velocity = state.velocities[body];
+    BodyDelta& delta = state.deltas[body];
+    if (substep > 0) delta = integrate_position(delta, velocity, h);
+    if (substep == inertia.substeps) return;
+
+    const vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
     BodyWarmStart warm = gather_impulses(state.warm_starts[body], velocity);
-    velocity = integrate_velocity(velocity, warm, rotation, state.properties[body], state.inertias[body],
-                                  state.loads[body], is_movable(state.shapes[body]), state.parameters);
+    velocity = integrate_velocity(velocity, warm, rotation, state.properties[body], inertia, state.loads[body],
+                                  is_movable(state.shapes[body]), h, state.parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();
         warm = no_warm_start(velocity);
-        state.poses[body].flags |= k_body_frozen;
+        pose.flags |= k_body_frozen;
         std::atomic_ref(state.counters[k_counter_frozen_bodies]).fetch_add(1);
     }
     warm.linear_before = velocity.linear;
     warm.angular_before = velocity.angular;
     state.warm_starts[body] = warm;
     state.velocities[body] = velocity;
-}
-
-inline void integrate_body_position(CpuState& state, uint body) {
-    if (moves(state, body))
-        state.deltas[body] = integrate_position(state.deltas[body], state.velocities[body], state.parameters.h);
 }
 
 } // namespace talus::engine

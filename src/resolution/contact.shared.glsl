@@ -5,25 +5,119 @@
 // Differs from the thesis, which has two friction rows for each point: of the twelve rows of a face six were redundant,
 // and they were half of the arithmetic.
 //
-// Symbols: v, w linear and angular velocity; r anchor from the body's centre; n normal from A to B; t1, t2 tangents;
-// K = J M^-1 J^T (equation 3.15 without the inversion); lambda accumulated impulse.
+// Symbols: v, w linear and angular velocity; r anchor from the body's centre; d a row's direction; n normal from A to B;
+// t1, t2 tangents; K = J M^-1 J^T (equation 3.15 without the inversion); lambda accumulated impulse.
+// A vec4 holds a number for each of the four points; a point that is not there has mass 0, and so no impulse.
+// Needs resolution/tangents.shared.glsl, body.shared.glsl and softness.shared.glsl.
 
-// 1 / K for a row with direction `d` at the anchors: the effective mass (equations 3.6 to 3.15).
-inline float effective_mass(vec3 d, vec3 r_a, vec3 r_b, float inverse_mass_a, BodyInertia inertia_a,
-                            float inverse_mass_b, BodyInertia inertia_b)
+// ---- one row ----
+
+struct Row {
+    vec3 arm_a; // r x d: the part of the row's Jacobian that the angular velocity meets (equation 3.6)
+    vec3 arm_b;
+    vec3 turn_a; // I^-1 (r x d): what a unit of impulse does to the angular velocity (equation 3.13)
+    vec3 turn_b;
+};
+
+inline Row make_row(vec3 d, vec3 r_a, vec3 r_b, BodyInertia inertia_a, BodyInertia inertia_b)
 {
-    vec3 arm_a = cross3(r_a, d);
-    vec3 arm_b = cross3(r_b, d);
-    precise float k = inverse_mass_a + inverse_mass_b + dot3(arm_a, multiply_inertia(inertia_a, arm_a)) +
-                      dot3(arm_b, multiply_inertia(inertia_b, arm_b));
+    Row row;
+    row.arm_a = cross3(r_a, d);
+    row.arm_b = cross3(r_b, d);
+    row.turn_a = multiply_inertia(inertia_a, row.arm_a);
+    row.turn_b = multiply_inertia(inertia_b, row.arm_b);
+    return row;
+}
+
+// J V of equation 3.3; `linear` is d · (v_b - v_a).
+inline float row_velocity(Row row, float linear, vec3 w_a, vec3 w_b)
+{
+    precise float velocity = linear + (dot3(row.arm_b, w_b) - dot3(row.arm_a, w_a));
+    return velocity;
+}
+
+// J_i M^-1 J_j^T of two rows along the same direction: what a unit of impulse in one does to the velocity of the other.
+inline float row_coupling(Row i, Row j, float inverse_masses)
+{
+    precise float k = inverse_masses + (dot3(i.arm_a, j.turn_a) + dot3(i.arm_b, j.turn_b));
+    return k;
+}
+
+// 1 / K: the effective mass (equation 3.15).
+inline float row_mass(Row row, float inverse_masses)
+{
+    float k = row_coupling(row, row, inverse_masses);
     return k > 0.0f ? reciprocal(k) : 0.0f;
 }
 
-// Velocity of B's anchor as seen from A's: J V of equation 3.3 before it is taken along a direction.
-inline vec3 relative_velocity(BodyVelocity a, BodyVelocity b, vec3 r_a, vec3 r_b)
+// ---- the rows of a manifold ----
+
+// All that stays the same in the passes of a step.
+struct ManifoldRows {
+    vec3 normal;
+    vec3 t1;
+    vec3 t2;
+    Row point_0; // along the normal
+    Row point_1;
+    Row point_2;
+    Row point_3;
+    Row tangent_1; // at the middle of the points
+    Row tangent_2;
+    vec3 twist_a; // I^-1 n
+    vec3 twist_b;
+    vec3 coupling_0; // of point 0 with points 1, 2, 3
+    vec3 coupling_1; // of point 1 with points 2 and 3; of point 2 with point 3
+    vec4 normal_mass;
+    vec3 friction_mass; // t1, t2, twist
+    vec4 lever;         // m, of each point from their middle
+    float friction;
+};
+
+// The impulses that a manifold has accumulated in a sub-step.
+struct ManifoldImpulses {
+    vec4 normal;   // N s
+    vec4 most;     // N s, largest of all sub-steps: whether the point was hit at all
+    vec3 friction; // N s along t1 and t2, N m s about the normal
+};
+
+inline ManifoldRows make_rows(ContactConstraint c, ContactConstraintPoint p0, ContactConstraintPoint p1,
+                              ContactConstraintPoint p2, ContactConstraintPoint p3, BodyInertia inertia_a,
+                              BodyInertia inertia_b)
 {
-    precise vec3 v = b.linear + cross3(b.angular, r_b) - a.linear - cross3(a.angular, r_a);
-    return v;
+    Tangents t = contact_tangents(c.normal);
+    ManifoldRows rows;
+    rows.normal = c.normal;
+    rows.t1 = t.t1;
+    rows.t2 = t.t2;
+    rows.point_0 = make_row(c.normal, p0.anchor_a, p0.anchor_b, inertia_a, inertia_b);
+    rows.point_1 = make_row(c.normal, p1.anchor_a, p1.anchor_b, inertia_a, inertia_b);
+    rows.point_2 = make_row(c.normal, p2.anchor_a, p2.anchor_b, inertia_a, inertia_b);
+    rows.point_3 = make_row(c.normal, p3.anchor_a, p3.anchor_b, inertia_a, inertia_b);
+    rows.tangent_1 = make_row(t.t1, c.centre_a, c.centre_b, inertia_a, inertia_b);
+    rows.tangent_2 = make_row(t.t2, c.centre_a, c.centre_b, inertia_a, inertia_b);
+    rows.twist_a = multiply_inertia(inertia_a, c.normal);
+    rows.twist_b = multiply_inertia(inertia_b, c.normal);
+    rows.coupling_0 = vec3(row_coupling(rows.point_0, rows.point_1, c.inverse_masses),
+                           row_coupling(rows.point_0, rows.point_2, c.inverse_masses),
+                           row_coupling(rows.point_0, rows.point_3, c.inverse_masses));
+    rows.coupling_1 = vec3(row_coupling(rows.point_1, rows.point_2, c.inverse_masses),
+                           row_coupling(rows.point_1, rows.point_3, c.inverse_masses),
+                           row_coupling(rows.point_2, rows.point_3, c.inverse_masses));
+    rows.normal_mass = vec4(p0.normal_mass, p1.normal_mass, p2.normal_mass, p3.normal_mass);
+    rows.friction_mass = vec3(c.tangent_mass_1, c.tangent_mass_2, c.twist_mass);
+    rows.lever = vec4(p0.lever, p1.lever, p2.lever, p3.lever);
+    rows.friction = c.friction;
+    return rows;
+}
+
+inline ManifoldImpulses make_impulses(ContactConstraint c, ContactConstraintPoint p0, ContactConstraintPoint p1,
+                                      ContactConstraintPoint p2, ContactConstraintPoint p3)
+{
+    ManifoldImpulses impulses;
+    impulses.normal = vec4(p0.normal_impulse, p1.normal_impulse, p2.normal_impulse, p3.normal_impulse);
+    impulses.most = vec4(p0.max_normal_impulse, p1.max_normal_impulse, p2.max_normal_impulse, p3.max_normal_impulse);
+    impulses.friction = vec3(c.tangent_impulse_1, c.tangent_impulse_2, c.twist_impulse);
+    return impulses;
 }
 
 struct VelocityPair {
@@ -31,14 +125,18 @@ struct VelocityPair {
     BodyVelocity b;
 };
 
-// Applies the impulse P to B and -P to A (equation 3.13).
-inline VelocityPair apply_impulse(VelocityPair v, vec3 impulse, vec3 r_a, vec3 r_b, BodyInertia inertia_a,
-                                  BodyInertia inertia_b)
+// Applies normal impulses to B, and their opposites to A (equation 3.13).
+inline VelocityPair apply_normals(VelocityPair v, ManifoldRows rows, vec4 impulse)
 {
-    precise vec3 linear_a = v.a.linear - impulse * v.a.inverse_mass;
-    precise vec3 linear_b = v.b.linear + impulse * v.b.inverse_mass;
-    precise vec3 angular_a = v.a.angular - multiply_inertia(inertia_a, cross3(r_a, impulse));
-    precise vec3 angular_b = v.b.angular + multiply_inertia(inertia_b, cross3(r_b, impulse));
+    precise vec3 push = rows.normal * sum4(impulse);
+    precise vec3 turn_a = rows.point_0.turn_a * impulse.x + rows.point_1.turn_a * impulse.y +
+                          (rows.point_2.turn_a * impulse.z + rows.point_3.turn_a * impulse.w);
+    precise vec3 turn_b = rows.point_0.turn_b * impulse.x + rows.point_1.turn_b * impulse.y +
+                          (rows.point_2.turn_b * impulse.z + rows.point_3.turn_b * impulse.w);
+    precise vec3 linear_a = v.a.linear - push * v.a.inverse_mass;
+    precise vec3 linear_b = v.b.linear + push * v.b.inverse_mass;
+    precise vec3 angular_a = v.a.angular - turn_a;
+    precise vec3 angular_b = v.b.angular + turn_b;
     v.a.linear = linear_a;
     v.b.linear = linear_b;
     v.a.angular = angular_a;
@@ -46,16 +144,26 @@ inline VelocityPair apply_impulse(VelocityPair v, vec3 impulse, vec3 r_a, vec3 r
     return v;
 }
 
-// Applies the angular impulse L about the normal to B and -L to A.
-inline VelocityPair apply_twist(VelocityPair v, vec3 n, float impulse, BodyInertia inertia_a, BodyInertia inertia_b)
+// Applies friction impulses: x and y along the tangents, z about the normal.
+inline VelocityPair apply_friction(VelocityPair v, ManifoldRows rows, vec3 impulse)
 {
-    vec3 twist = scale3(n, impulse);
-    precise vec3 angular_a = v.a.angular - multiply_inertia(inertia_a, twist);
-    precise vec3 angular_b = v.b.angular + multiply_inertia(inertia_b, twist);
+    precise vec3 sideways = rows.t1 * impulse.x + rows.t2 * impulse.y;
+    precise vec3 turn_a =
+        rows.tangent_1.turn_a * impulse.x + rows.tangent_2.turn_a * impulse.y + rows.twist_a * impulse.z;
+    precise vec3 turn_b =
+        rows.tangent_1.turn_b * impulse.x + rows.tangent_2.turn_b * impulse.y + rows.twist_b * impulse.z;
+    precise vec3 linear_a = v.a.linear - sideways * v.a.inverse_mass;
+    precise vec3 linear_b = v.b.linear + sideways * v.b.inverse_mass;
+    precise vec3 angular_a = v.a.angular - turn_a;
+    precise vec3 angular_b = v.b.angular + turn_b;
+    v.a.linear = linear_a;
+    v.b.linear = linear_b;
     v.a.angular = angular_a;
     v.b.angular = angular_b;
     return v;
 }
+
+// ---- separations ----
 
 // What a manifold's points share of their present separation.
 struct Approach {
@@ -83,203 +191,210 @@ inline float current_separation(ContactConstraintPoint point, Approach approach)
     return separation;
 }
 
-struct Softness {
-    float bias_rate;     // 1/s
-    float mass_scale;    // 1 for a rigid row
-    float impulse_scale; // 0 for a rigid row
+// ---- what the rows of a pass aim at ----
+//
+// All of it is known before the bodies' velocities are, which matters where a pass waits for the one before.
+
+// The normal rows, put so that the new impulse is max(offset - mass (J V), 0).
+struct NormalTarget {
+    vec4 mass;
+    vec4 offset;
 };
 
-inline Softness contact_softness(bool against_static, Parameters p)
+// One point's share: x the mass, y the offset. The bias velocity b is that of equation 3.7; see solver.md.
+inline vec2 point_target(float separation, float normal_mass, float impulse, bool use_bias, Softness soft, float inv_h,
+                         Parameters p)
 {
-    Softness s;
-    s.bias_rate = against_static ? p.static_bias_rate : p.bias_rate;
-    s.mass_scale = against_static ? p.static_mass_scale : p.mass_scale;
-    s.impulse_scale = against_static ? p.static_impulse_scale : p.impulse_scale;
+    bool biased = separation <= 0.0f && use_bias;
+    precise float gap = separation * inv_h; // may close within the sub-step, not more
+    precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -p.contact_push_speed);
+    float bias = separation > 0.0f ? gap : (use_bias ? push : 0.0f);
+    precise float mass = normal_mass * (biased ? soft.mass_scale : 1.0f);
+    precise float offset = (impulse - (biased ? soft.impulse_scale : 0.0f) * impulse) - mass * bias;
+    return vec2(mass, offset);
+}
+
+inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 impulse, bool use_bias, Softness soft,
+                                       float inv_h, Parameters p)
+{
+    vec2 x = point_target(separation.x, rows.normal_mass.x, impulse.x, use_bias, soft, inv_h, p);
+    vec2 y = point_target(separation.y, rows.normal_mass.y, impulse.y, use_bias, soft, inv_h, p);
+    vec2 z = point_target(separation.z, rows.normal_mass.z, impulse.z, use_bias, soft, inv_h, p);
+    vec2 w = point_target(separation.w, rows.normal_mass.w, impulse.w, use_bias, soft, inv_h, p);
+    NormalTarget target;
+    target.mass = vec4(x.x, y.x, z.x, w.x);
+    target.offset = vec4(x.y, y.y, z.y, w.y);
+    return target;
+}
+
+// Restitution, once at the end of the step: a point that was hit faster than the threshold leaves with e times the
+// speed of its approach.
+inline vec2 bounce_target(float approach_speed, float most_impulse, float normal_mass, float impulse, float restitution,
+                          Parameters p)
+{
+    bool bounces = restitution > 0.0f && approach_speed < -p.restitution_threshold && most_impulse > 0.0f;
+    float mass = bounces ? normal_mass : 0.0f;
+    precise float offset = impulse - mass * (restitution * approach_speed);
+    return vec2(mass, offset);
+}
+
+inline NormalTarget make_bounce_target(vec4 approach_speed, ManifoldRows rows, ManifoldImpulses impulses,
+                                       float restitution, Parameters p)
+{
+    vec4 most = impulses.most;
+    vec4 impulse = impulses.normal;
+    vec2 x = bounce_target(approach_speed.x, most.x, rows.normal_mass.x, impulse.x, restitution, p);
+    vec2 y = bounce_target(approach_speed.y, most.y, rows.normal_mass.y, impulse.y, restitution, p);
+    vec2 z = bounce_target(approach_speed.z, most.z, rows.normal_mass.z, impulse.z, restitution, p);
+    vec2 w = bounce_target(approach_speed.w, most.w, rows.normal_mass.w, impulse.w, restitution, p);
+    NormalTarget target;
+    target.mass = vec4(x.x, y.x, z.x, w.x);
+    target.offset = vec4(x.y, y.y, z.y, w.y);
+    return target;
+}
+
+// The friction rows: impulses stay inside an ellipsoid, with the force limit as its radius along the tangents and the
+// torque limit along the twist. A body that spins fast has little friction left against sliding. The surface is Howe and
+// Cutkosky's approximation (1996) of what points of friction spread over the face would do.
+struct FrictionTarget {
+    vec3 radii;         // N s along t1 and t2, N m s about the normal
+    vec3 inverse_radii; // 0 where the limit is too small to hold anything
+    vec3 sliding_mass;
+};
+
+const float k_least_friction = 1.0e-20f; // N s, and N m s: their inverses would leave the range of a float
+const float k_most_radii = 1.0e15f;      // that an impulse is taken to lie outside its limit: its square is still a float
+
+// A manifold that slides takes masses in the ratio of the squared limits, and none above its own. Then what is left on
+// the rim points against the motion, as the ellipsoid's normal does. With the rows' own masses a box lost 8 % of its
+// friction on a slope of 35 degrees, and drifted to the side.
+inline FrictionTarget make_friction_target(ManifoldRows rows, vec4 normal_impulse)
+{
+    precise vec4 moments = normal_impulse * rows.lever;
+    precise float force = rows.friction * sum4(normal_impulse);
+    precise float torque = rows.friction * sum4(moments);
+    float inverse_force = force > k_least_friction ? reciprocal(force) : 0.0f;
+    float inverse_torque = torque > k_least_friction ? reciprocal(torque) : 0.0f;
+    float force_radius = inverse_force > 0.0f ? force : 0.0f;
+    float torque_radius = inverse_torque > 0.0f ? torque : 0.0f;
+    precise float lever = torque_radius * inverse_force;
+    precise float square_lever = lever * lever;
+    vec3 mass = rows.friction_mass;
+    float smaller = min(mass.x, mass.y);
+    if (square_lever > 0.0f) smaller = min(smaller, mass.z * reciprocal(square_lever));
+    precise float twist = smaller * square_lever;
+    FrictionTarget target;
+    target.radii = vec3(force_radius, force_radius, torque_radius);
+    target.inverse_radii = vec3(inverse_force, inverse_force, inverse_torque);
+    target.sliding_mass = vec3(smaller, smaller, twist);
+    return target;
+}
+
+struct PassTarget {
+    NormalTarget normal;
+    FrictionTarget friction;
+};
+
+// A body pair and its manifold in the midst of a pass.
+struct ManifoldState {
+    VelocityPair velocities;
+    ManifoldImpulses impulses;
+};
+
+// ---- normal rows ----
+
+// The normal rows one after the other (equation 3.14, accumulated and clamped to push only). What each impulse does to
+// the rows behind it comes from the coupling, so that the bodies' velocities are touched once.
+inline ManifoldState solve_normals(ManifoldState s, ManifoldRows rows, NormalTarget target)
+{
+    vec3 w_a = s.velocities.a.angular;
+    vec3 w_b = s.velocities.b.angular;
+    precise vec3 apart = s.velocities.b.linear - s.velocities.a.linear;
+    float linear = dot3(apart, rows.normal);
+    vec4 old = s.impulses.normal;
+    float velocity_0 = row_velocity(rows.point_0, linear, w_a, w_b);
+    precise float velocity_1 = row_velocity(rows.point_1, linear, w_a, w_b);
+    precise float velocity_2 = row_velocity(rows.point_2, linear, w_a, w_b);
+    precise float velocity_3 = row_velocity(rows.point_3, linear, w_a, w_b);
+
+    precise float impulse_0 = max(target.offset.x - target.mass.x * velocity_0, 0.0f);
+    precise float change_0 = impulse_0 - old.x;
+    velocity_1 = velocity_1 + rows.coupling_0.x * change_0;
+    velocity_2 = velocity_2 + rows.coupling_0.y * change_0;
+    velocity_3 = velocity_3 + rows.coupling_0.z * change_0;
+    precise float impulse_1 = max(target.offset.y - target.mass.y * velocity_1, 0.0f);
+    precise float change_1 = impulse_1 - old.y;
+    velocity_2 = velocity_2 + rows.coupling_1.x * change_1;
+    velocity_3 = velocity_3 + rows.coupling_1.y * change_1;
+    precise float impulse_2 = max(target.offset.z - target.mass.z * velocity_2, 0.0f);
+    precise float change_2 = impulse_2 - old.z;
+    velocity_3 = velocity_3 + rows.coupling_1.z * change_2;
+    precise float impulse_3 = max(target.offset.w - target.mass.w * velocity_3, 0.0f);
+    precise float change_3 = impulse_3 - old.w;
+
+    s.impulses.normal = vec4(impulse_0, impulse_1, impulse_2, impulse_3);
+    s.impulses.most = max(s.impulses.most, s.impulses.normal);
+    s.velocities = apply_normals(s.velocities, rows, vec4(change_0, change_1, change_2, change_3));
     return s;
 }
 
-// What the normal row aims at in a pass: the bias velocity b of equation 3.7 and how soft the row is.
-inline Softness row_softness(float separation, bool use_bias, Softness soft)
-{
-    Softness rigid;
-    rigid.bias_rate = 0.0f;
-    rigid.mass_scale = 1.0f;
-    rigid.impulse_scale = 0.0f;
-    return separation <= 0.0f && use_bias ? soft : rigid;
-}
-
-inline float row_bias(float separation, bool use_bias, Softness soft, Parameters p)
-{
-    precise float gap = separation * p.inv_h; // may close within the sub-step, not more
-    precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -p.contact_push_speed);
-    if (separation > 0.0f) return gap;
-    return use_bias ? push : 0.0f;
-}
-
-// New accumulated normal impulse (equation 3.14, accumulated and clamped to push only).
-inline float solve_normal_row(ContactConstraintPoint point, float normal_velocity, float bias, Softness soft)
-{
-    precise float change = -point.normal_mass * soft.mass_scale * (normal_velocity + bias) -
-                           soft.impulse_scale * point.normal_impulse;
-    precise float impulse = max(point.normal_impulse + change, 0.0f);
-    return impulse;
-}
-
-// What presses a manifold together. Times the coefficient, it is the limit of its friction.
-struct Pressure {
-    float force;  // N s: the sum of the normal impulses
-    float torque; // N m s: the same, each times its lever
-};
-
-inline Pressure no_pressure()
-{
-    Pressure p;
-    p.force = 0.0f;
-    p.torque = 0.0f;
-    return p;
-}
-
-inline Pressure add_pressure(Pressure p, ContactConstraintPoint point)
-{
-    precise float force = p.force + point.normal_impulse;
-    precise float torque = p.torque + point.normal_impulse * point.lever;
-    p.force = force;
-    p.torque = torque;
-    return p;
-}
-
-const float k_least_friction = 1.0e-20f; // N s, and N m s
-const float k_most_radii = 1.0e15f;      // that an impulse is taken to lie outside its limit: its square is still a float
+// ---- friction rows ----
 
 inline vec3 limit_each(vec3 v, float limit)
 {
     return vec3(clamp_to(v.x, -limit, limit), clamp_to(v.y, -limit, limit), clamp_to(v.z, -limit, limit));
 }
 
-// New accumulated friction impulses: x and y along the tangents, z the twist. They are held inside an ellipsoid, with the
-// force limit as its radius along the tangents and the torque limit along the twist: a body that spins fast has little
-// friction left against sliding. The surface is Howe and Cutkosky's approximation (1996) of what points of friction
-// spread over the face would do.
-//
-// A manifold that slides takes masses in the ratio of the squared limits, and none above its own. Then what is left on
-// the rim points against the motion, as the ellipsoid's normal does. With the rows' own masses a box lost 8 % of its
-// friction on a slope of 35 degrees, and drifted to the side.
-inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Pressure limit)
+// New accumulated friction impulses.
+inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, FrictionTarget target)
 {
-    // Limits too small to matter hold nothing: their inverses would leave the range of a float.
-    float inverse_force = limit.force > k_least_friction ? reciprocal(limit.force) : 0.0f;
-    float inverse_torque = limit.torque > k_least_friction ? reciprocal(limit.torque) : 0.0f;
-    vec3 radii = vec3(inverse_force > 0.0f ? limit.force : 0.0f, inverse_force > 0.0f ? limit.force : 0.0f,
-                      inverse_torque > 0.0f ? limit.torque : 0.0f);
-    vec3 inverse_radii = vec3(inverse_force, inverse_force, inverse_torque);
     precise vec3 stuck = impulse - mass * velocity;
-    vec3 on_sphere = limit_each(multiply3(stuck, inverse_radii), k_most_radii);
-    if (dot3(on_sphere, on_sphere) <= 1.0f) return multiply3(on_sphere, radii);
+    vec3 on_sphere = limit_each(multiply3(stuck, target.inverse_radii), k_most_radii);
+    if (dot3(on_sphere, on_sphere) <= 1.0f) return multiply3(on_sphere, target.radii);
 
-    precise float lever = radii.z * inverse_force;
-    precise float square_lever = lever * lever;
-    float smaller = min(mass.x, mass.y);
-    if (square_lever > 0.0f) smaller = min(smaller, mass.z * reciprocal(square_lever));
-    precise vec3 sliding_mass = vec3(smaller, smaller, smaller * square_lever);
-    precise vec3 sliding = impulse - sliding_mass * velocity;
-    on_sphere = limit_each(multiply3(sliding, inverse_radii), k_most_radii);
+    precise vec3 sliding = impulse - target.sliding_mass * velocity;
+    on_sphere = limit_each(multiply3(sliding, target.inverse_radii), k_most_radii);
     float square = dot3(on_sphere, on_sphere);
     if (square > 1.0f) on_sphere = scale3(on_sphere, inverse_sqrt(square));
-    return multiply3(on_sphere, radii);
+    return multiply3(on_sphere, target.radii);
 }
-
-// A body pair and its manifold in the midst of a pass of the solver.
-struct ManifoldState {
-    VelocityPair velocities;
-    ContactConstraint c;
-};
 
 // One pass over the friction rows. They come before the normal rows, as keeping bodies apart matters more and the last
 // row wins.
-inline ManifoldState solve_friction(ManifoldState s, Tangents t, Pressure pressure, BodyInertia inertia_a,
-                                    BodyInertia inertia_b)
+inline ManifoldState solve_friction(ManifoldState s, ManifoldRows rows, FrictionTarget target)
 {
-    vec3 r_a = s.c.centre_a;
-    vec3 r_b = s.c.centre_b;
-    vec3 dv = relative_velocity(s.velocities.a, s.velocities.b, r_a, r_b);
-    precise vec3 spin = s.velocities.b.angular - s.velocities.a.angular;
-    precise float force_limit = s.c.friction * pressure.force;
-    precise float torque_limit = s.c.friction * pressure.torque;
-    Pressure limit;
-    limit.force = force_limit;
-    limit.torque = torque_limit;
-    vec3 old = vec3(s.c.tangent_impulse_1, s.c.tangent_impulse_2, s.c.twist_impulse);
-    vec3 mass = vec3(s.c.tangent_mass_1, s.c.tangent_mass_2, s.c.twist_mass);
-    vec3 velocity = vec3(dot3(dv, t.t1), dot3(dv, t.t2), dot3(spin, s.c.normal));
-    vec3 impulse = solve_friction_rows(old, mass, velocity, limit);
-    precise vec3 change = impulse - old;
-    precise vec3 sideways = t.t1 * change.x + t.t2 * change.y;
-    s.c.tangent_impulse_1 = impulse.x;
-    s.c.tangent_impulse_2 = impulse.y;
-    s.c.twist_impulse = impulse.z;
-    s.velocities = apply_impulse(s.velocities, sideways, r_a, r_b, inertia_a, inertia_b);
-    s.velocities = apply_twist(s.velocities, s.c.normal, change.z, inertia_a, inertia_b);
+    vec3 w_a = s.velocities.a.angular;
+    vec3 w_b = s.velocities.b.angular;
+    precise vec3 apart = s.velocities.b.linear - s.velocities.a.linear;
+    precise vec3 spin = w_b - w_a;
+    vec3 velocity = vec3(row_velocity(rows.tangent_1, dot3(apart, rows.t1), w_a, w_b),
+                         row_velocity(rows.tangent_2, dot3(apart, rows.t2), w_a, w_b), dot3(spin, rows.normal));
+    vec3 impulse = solve_friction_rows(s.impulses.friction, rows.friction_mass, velocity, target);
+    precise vec3 change = impulse - s.impulses.friction;
+    s.impulses.friction = impulse;
+    s.velocities = apply_friction(s.velocities, rows, change);
     return s;
 }
 
-// The accumulated friction again, to start from.
-inline ManifoldState start_friction(ManifoldState s, Tangents t, BodyInertia inertia_a, BodyInertia inertia_b)
+// ---- passes ----
+
+inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
 {
-    precise vec3 sideways = t.t1 * s.c.tangent_impulse_1 + t.t2 * s.c.tangent_impulse_2;
-    s.velocities = apply_impulse(s.velocities, sideways, s.c.centre_a, s.c.centre_b, inertia_a, inertia_b);
-    s.velocities = apply_twist(s.velocities, s.c.normal, s.c.twist_impulse, inertia_a, inertia_b);
-    return s;
+    return solve_normals(solve_friction(s, rows, target.friction), rows, target.normal);
 }
 
-// A body pair and a point in the midst of a pass of the solver.
-struct PointState {
-    VelocityPair velocities;
-    ContactConstraintPoint point;
-};
-
-// One pass over the normal row of a point.
-inline PointState solve_point(PointState s, vec3 n, float separation, bool use_bias, Softness soft,
-                              BodyInertia inertia_a, BodyInertia inertia_b, Parameters p)
+// The accumulated impulses again, to start from.
+inline VelocityPair warm_start_manifold(VelocityPair v, ManifoldRows rows, ManifoldImpulses impulses)
 {
-    vec3 r_a = s.point.anchor_a;
-    vec3 r_b = s.point.anchor_b;
-    vec3 dv = relative_velocity(s.velocities.a, s.velocities.b, r_a, r_b);
-    float bias = row_bias(separation, use_bias, soft, p);
-    float impulse = solve_normal_row(s.point, dot3(dv, n), bias, row_softness(separation, use_bias, soft));
-    precise float change = impulse - s.point.normal_impulse;
-    s.point.normal_impulse = impulse;
-    s.point.max_normal_impulse = max(s.point.max_normal_impulse, impulse);
-    s.velocities = apply_impulse(s.velocities, scale3(n, change), r_a, r_b, inertia_a, inertia_b);
-    return s;
+    return apply_normals(apply_friction(v, rows, impulses.friction), rows, impulses.normal);
 }
 
-// The accumulated normal impulse again, to start from.
-inline PointState start_point(PointState s, vec3 n, BodyInertia inertia_a, BodyInertia inertia_b)
-{
-    s.velocities = apply_impulse(s.velocities, scale3(n, s.point.normal_impulse), s.point.anchor_a, s.point.anchor_b,
-                                 inertia_a, inertia_b);
-    return s;
-}
+// ---- from a manifold to a constraint ----
 
-// Restitution, once at the end of the step: a point that was hit faster than the threshold leaves with e times the
-// speed of its approach.
-inline PointState apply_point_restitution(PointState s, vec3 n, float restitution, BodyInertia inertia_a,
-                                          BodyInertia inertia_b, Parameters p)
-{
-    if (s.point.approach_speed > -p.restitution_threshold || s.point.max_normal_impulse == 0.0f) return s;
-    vec3 dv = relative_velocity(s.velocities.a, s.velocities.b, s.point.anchor_a, s.point.anchor_b);
-    Softness rigid = row_softness(1.0f, false, contact_softness(false, p));
-    precise float bias = restitution * s.point.approach_speed;
-    float impulse = solve_normal_row(s.point, dot3(dv, n), bias, rigid);
-    precise float change = impulse - s.point.normal_impulse;
-    s.point.normal_impulse = impulse;
-    s.velocities =
-        apply_impulse(s.velocities, scale3(n, change), s.point.anchor_a, s.point.anchor_b, inertia_a, inertia_b);
-    return s;
-}
-
-// A constraint without the middle of its points yet.
-inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index)
+// Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
+// cannot be pushed: the other's number holds.
+inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, float inverse_masses,
+                                          BodyInertia inertia_a, BodyInertia inertia_b)
 {
     ContactConstraint c;
     c.body_a = manifold.body_a;
@@ -293,13 +408,17 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.centre_b = vec3(0.0f, 0.0f, 0.0f);
     c.tangent_mass_2 = 0.0f;
     c.restitution = manifold.restitution;
-    c.against_static = 0u;
+    c.against_static = (inertia_a.movable & inertia_b.movable) ^ 1u;
     c.twist_mass = 0.0f;
-    c.reserved_1 = 0.0f;
-    c.tangent_impulse_1 = manifold.tangent_impulse_1;
-    c.tangent_impulse_2 = manifold.tangent_impulse_2;
-    c.twist_impulse = manifold.twist_impulse;
-    c.reserved_2 = 0.0f;
+    c.inverse_masses = inverse_masses;
+    c.substeps = max(max(inertia_a.movable * inertia_a.substeps, inertia_b.movable * inertia_b.substeps), 1u);
+    precise float share = reciprocal(float(c.substeps));
+    precise float tangent_impulse_1 = manifold.tangent_impulse_1 * share;
+    precise float tangent_impulse_2 = manifold.tangent_impulse_2 * share;
+    precise float twist_impulse = manifold.twist_impulse * share;
+    c.tangent_impulse_1 = tangent_impulse_1;
+    c.tangent_impulse_2 = tangent_impulse_2;
+    c.twist_impulse = twist_impulse;
     return c;
 }
 
@@ -311,35 +430,79 @@ inline ContactConstraint add_to_centre(ContactConstraint c, ManifoldPoint point)
     return c;
 }
 
-inline ContactConstraint finish_constraint(ContactConstraint c, Tangents t, BodyVelocity a, BodyVelocity b,
-                                           BodyInertia inertia_a, BodyInertia inertia_b)
+inline ContactConstraint finish_constraint(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)
 {
-    c.tangent_mass_1 =
-        effective_mass(t.t1, c.centre_a, c.centre_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
-    c.tangent_mass_2 =
-        effective_mass(t.t2, c.centre_a, c.centre_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
+    Tangents t = contact_tangents(c.normal);
+    Row tangent_1 = make_row(t.t1, c.centre_a, c.centre_b, inertia_a, inertia_b);
+    Row tangent_2 = make_row(t.t2, c.centre_a, c.centre_b, inertia_a, inertia_b);
+    c.tangent_mass_1 = row_mass(tangent_1, c.inverse_masses);
+    c.tangent_mass_2 = row_mass(tangent_2, c.inverse_masses);
     precise float k = dot3(c.normal, multiply_inertia(inertia_a, c.normal)) +
                       dot3(c.normal, multiply_inertia(inertia_b, c.normal));
     c.twist_mass = k > 0.0f ? reciprocal(k) : 0.0f;
-    c.against_static = (inertia_a.movable & inertia_b.movable) ^ 1u;
     return c;
 }
 
 inline ContactConstraintPoint prepare_point(ManifoldPoint old, ContactConstraint c, BodyVelocity a, BodyVelocity b,
                                             BodyInertia inertia_a, BodyInertia inertia_b)
 {
+    Row row = make_row(c.normal, old.anchor_a, old.anchor_b, inertia_a, inertia_b);
+    precise vec3 faster = b.linear - a.linear;
+    precise vec3 apart = old.anchor_b - old.anchor_a;
+    precise vec3 arm = old.anchor_a - c.centre_a;
+    precise float base = old.separation - dot3(apart, c.normal);
+    precise float impulse = old.normal_impulse * reciprocal(float(c.substeps));
     ContactConstraintPoint point;
     point.anchor_a = old.anchor_a;
     point.anchor_b = old.anchor_b;
-    precise vec3 apart = old.anchor_b - old.anchor_a;
-    precise float base = old.separation - dot3(apart, c.normal);
-    precise vec3 arm = old.anchor_a - c.centre_a;
     point.base_separation = base;
-    point.normal_mass =
-        effective_mass(c.normal, old.anchor_a, old.anchor_b, a.inverse_mass, inertia_a, b.inverse_mass, inertia_b);
+    point.normal_mass = row_mass(row, c.inverse_masses);
     point.lever = length3(arm);
-    point.approach_speed = dot3(relative_velocity(a, b, old.anchor_a, old.anchor_b), c.normal);
-    point.normal_impulse = old.normal_impulse;
+    point.approach_speed = row_velocity(row, dot3(faster, c.normal), a.angular, b.angular);
+    point.normal_impulse = impulse;
     point.max_normal_impulse = 0.0f;
     return point;
+}
+
+// In the place of a point that is not there.
+inline ContactConstraintPoint no_point()
+{
+    ContactConstraintPoint point;
+    point.anchor_a = vec3(0.0f, 0.0f, 0.0f);
+    point.base_separation = 0.0f;
+    point.anchor_b = vec3(0.0f, 0.0f, 0.0f);
+    point.normal_mass = 0.0f;
+    point.lever = 0.0f;
+    point.approach_speed = 0.0f;
+    point.normal_impulse = 0.0f;
+    point.max_normal_impulse = 0.0f;
+    return point;
+}
+
+// ---- from a constraint back to its manifold ----
+
+// Impulses of the whole step, and the sub-steps that their load asks for in the next one. A load counts once it has
+// lasted for two steps: an impact is no reason for finer sub-steps.
+inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
+                               float inverse_mass_b, Parameters p)
+{
+    precise float whole = float(c.substeps);
+    precise float tangent_impulse_1 = c.tangent_impulse_1 * whole;
+    precise float tangent_impulse_2 = c.tangent_impulse_2 * whole;
+    precise float twist_impulse = c.twist_impulse * whole;
+    float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
+    manifold.tangent_impulse_1 = tangent_impulse_1;
+    manifold.tangent_impulse_2 = tangent_impulse_2;
+    manifold.twist_impulse = twist_impulse;
+    uint wanted = wanted_substeps(min(weights, manifold.weights), p);
+    bool on_trial = manifold.idle_steps >= k_trial;
+    bool idle = on_trial || 2u * wanted <= manifold.substeps;
+    manifold.idle_steps = idle ? manifold.idle_steps + 1u : 0u;
+    uint patience = on_trial ? k_trial + k_trial_steps : k_patience;
+    if (wanted > manifold.substeps || manifold.idle_steps >= patience) {
+        manifold.substeps = wanted;
+        manifold.idle_steps = 0u;
+    }
+    manifold.weights = weights;
+    return manifold;
 }

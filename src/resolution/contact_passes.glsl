@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The passes over one contact constraint. Before this file the kernel defines
+// A contact constraint in an invocation's hand, and the passes over it. Before this file the kernel defines
 //   BodyVelocity load_velocity(uint body)
 //   void store_velocity(uint body, BodyVelocity velocity)
 // as velocities live in a buffer in one kernel and in shared memory in another. The CPU's counterpart is
@@ -16,54 +16,90 @@ const uint k_solve = 1u; // with bias
 const uint k_relax = 2u; // without
 const uint k_restitution = 3u;
 
-void pass_over_constraint(uint pass, uint index)
+// The constraint in hand.
+uint body_a;
+uint body_b;
+bool against_static;
+uint substeps;
+ManifoldRows rows;
+ManifoldImpulses impulses;
+
+void take_constraint(uint index)
+{
+    ContactConstraint c = constraints[index];
+    BodyInertia inertia_a = inertias[c.body_a];
+    BodyInertia inertia_b = inertias[c.body_b];
+    ContactConstraintPoint p0 = constraint_points[4u * index];
+    ContactConstraintPoint p1 = constraint_points[4u * index + 1u];
+    ContactConstraintPoint p2 = constraint_points[4u * index + 2u];
+    ContactConstraintPoint p3 = constraint_points[4u * index + 3u];
+    body_a = c.body_a;
+    body_b = c.body_b;
+    against_static = c.against_static == 1u;
+    substeps = c.substeps;
+    rows = make_rows(c, p0, p1, p2, p3, inertia_a, inertia_b);
+    impulses = make_impulses(c, p0, p1, p2, p3);
+}
+
+void put_back_impulses(uint index)
+{
+    constraints[index].tangent_impulse_1 = impulses.friction.x;
+    constraints[index].tangent_impulse_2 = impulses.friction.y;
+    constraints[index].twist_impulse = impulses.friction.z;
+    constraint_points[4u * index].normal_impulse = impulses.normal.x;
+    constraint_points[4u * index].max_normal_impulse = impulses.most.x;
+    constraint_points[4u * index + 1u].normal_impulse = impulses.normal.y;
+    constraint_points[4u * index + 1u].max_normal_impulse = impulses.most.y;
+    constraint_points[4u * index + 2u].normal_impulse = impulses.normal.z;
+    constraint_points[4u * index + 2u].max_normal_impulse = impulses.most.z;
+    constraint_points[4u * index + 3u].normal_impulse = impulses.normal.w;
+    constraint_points[4u * index + 3u].max_normal_impulse = impulses.most.w;
+}
+
+float separation_of(uint point, Approach approach)
+{
+    return current_separation(constraint_points[point], approach);
+}
+
+PassTarget target_of_pass(uint pass, uint index)
+{
+    PassTarget target;
+    target.friction = make_friction_target(rows, impulses.normal);
+    uint point = 4u * index;
+    if (pass == k_restitution) {
+        vec4 approach_speed = vec4(constraint_points[point].approach_speed, constraint_points[point + 1u].approach_speed,
+                                   constraint_points[point + 2u].approach_speed,
+                                   constraint_points[point + 3u].approach_speed);
+        target.normal =
+            make_bounce_target(approach_speed, rows, impulses, constraints[index].restitution, parameters);
+        return target;
+    }
+    BodyDelta delta_a = deltas[body_a]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
+    BodyDelta delta_b = deltas[body_b];
+    Approach approach = measure_approach(rows.normal, delta_a, delta_b);
+    vec4 separation = vec4(separation_of(point, approach), separation_of(point + 1u, approach),
+                           separation_of(point + 2u, approach), separation_of(point + 3u, approach));
+    Substep substep = make_substep(substeps, against_static, parameters);
+    target.normal = make_normal_target(separation, rows, impulses.normal, pass == k_solve, substep.soft, substep.inv_h,
+                                       parameters);
+    return target;
+}
+
+// One pass over the constraint in hand.
+void pass_over_constraint(uint pass, PassTarget target)
 {
     ManifoldState s;
-    s.c = constraints[index];
-    vec3 n = s.c.normal;
-    if (pass == k_restitution && s.c.restitution == 0.0) return;
-    s.velocities.a = load_velocity(s.c.body_a);
-    s.velocities.b = load_velocity(s.c.body_b);
-    BodyInertia inertia_a = inertias[s.c.body_a];
-    BodyInertia inertia_b = inertias[s.c.body_b];
-    Tangents t = contact_tangents(n);
-    Softness soft = contact_softness(s.c.against_static == 1u, parameters);
-    BodyDelta delta_a = no_delta();
-    BodyDelta delta_b = no_delta();
-    uint first = 4u * index;
-    uint end = first + s.c.point_count;
-    if (pass == k_solve || pass == k_relax) {
-        delta_a = deltas[s.c.body_a];
-        delta_b = deltas[s.c.body_b];
-        Pressure pressure = no_pressure();
-        for (uint i = first; i < end; ++i)
-            pressure = add_pressure(pressure, constraint_points[i]);
-        s = solve_friction(s, t, pressure, inertia_a, inertia_b);
-        constraints[index].tangent_impulse_1 = s.c.tangent_impulse_1;
-        constraints[index].tangent_impulse_2 = s.c.tangent_impulse_2;
-        constraints[index].twist_impulse = s.c.twist_impulse;
-    } else if (pass == k_warm_start) {
-        s = start_friction(s, t, inertia_a, inertia_b);
-    }
-    Approach approach = measure_approach(n, delta_a, delta_b);
-    PointState p;
-    p.velocities = s.velocities;
-    for (uint i = first; i < end; ++i) {
-        p.point = constraint_points[i];
-        if (pass == k_warm_start) {
-            p = start_point(p, n, inertia_a, inertia_b);
-            continue;
-        }
-        if (pass == k_restitution) {
-            p = apply_point_restitution(p, n, s.c.restitution, inertia_a, inertia_b, parameters);
-        } else {
-            float separation = current_separation(p.point, approach);
-            p = solve_point(p, n, separation, pass == k_solve, soft, inertia_a, inertia_b, parameters);
-        }
-        constraint_points[i].normal_impulse = p.point.normal_impulse;
-        constraint_points[i].max_normal_impulse = p.point.max_normal_impulse;
-    }
+    s.velocities.a = load_velocity(body_a);
+    s.velocities.b = load_velocity(body_b);
+    s.impulses = impulses;
+    if (pass == k_warm_start)
+        s.velocities = warm_start_manifold(s.velocities, rows, impulses);
+    else if (pass == k_restitution)
+        s = solve_normals(s, rows, target.normal);
+    else
+        s = solve_manifold(s, rows, target);
+    impulses = s.impulses;
     // A body that contacts cannot push may be in many constraints of one colour: nobody writes it.
-    if (p.velocities.a.inverse_mass > 0.0) store_velocity(s.c.body_a, p.velocities.a);
-    if (p.velocities.b.inverse_mass > 0.0) store_velocity(s.c.body_b, p.velocities.b);
+    if (s.velocities.a.inverse_mass > 0.0) store_velocity(body_a, s.velocities.a);
+    if (s.velocities.b.inverse_mass > 0.0) store_velocity(body_b, s.velocities.b);
 }

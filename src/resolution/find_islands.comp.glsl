@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One group: islands, the sets of rigid bodies that contacts join, by hooking the larger root to the smaller one and
 // pointer jumping. An island is named by its lowest body slot, whoever comes first. Bodies that touch nothing share an
-// island: they are many, and each has next to nothing to do. args.x: 1 makes one island of all bodies that move.
+// island: they are many, and each has next to nothing to do. An island has as many sub-steps as the manifold of it that
+// asks for most.
+// args.x: 1 makes one island of all bodies that move. args.y: 1 puts the island into the manifolds' keys.
 // Reads: Counters, Manifolds, Shapes; ManifoldKeys, the colours.
-// Writes: Islands; ManifoldKeys, island and colour.
+// Writes: Islands, Substeps; ManifoldKeys, island and colour.
 // Needs: a barrier after assign_colours. At most k_island_bodies body slots.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -16,10 +18,12 @@ layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) writeonly buffer Islands { uint islands[]; };
+layout(std430) writeonly buffer Substeps { uint substeps[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 
 shared uint roots[k_island_bodies];
 shared bool touches[k_island_bodies];
+shared uint most_substeps[k_island_bodies];
 shared uint first_mover; // of those that touch nothing; of all, if all are one island
 shared bool changed;
 
@@ -40,6 +44,7 @@ void main()
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
         roots[body] = is_mover(shapes[body]) ? body : k_none;
         touches[body] = false;
+        most_substeps[body] = parameters.least_substeps;
     }
     bool done = args.x == 1u;
     while (!done) {
@@ -78,15 +83,19 @@ void main()
     }
     barrier();
 
-    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x)
-        islands[body] = roots[body];
     for (uint pair = me; pair < pair_count; pair += gl_WorkGroupSize.x) {
         uint colour = manifold_keys[pair];
         uint island = k_island_bodies; // after all others
         if (colour != k_inactive_colour) {
             uint body_a = manifolds[pair].body_a;
             island = roots[is_movable(shapes[body_a]) ? body_a : manifolds[pair].body_b];
+            atomicMax(most_substeps[island], manifolds[pair].substeps);
         }
-        manifold_keys[pair] = manifold_key(island, colour);
+        if (args.y == 1u) manifold_keys[pair] = manifold_key(island, colour);
+    }
+    barrier();
+    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
+        islands[body] = roots[body];
+        substeps[body] = roots[body] == k_none ? 0u : most_substeps[roots[body]];
     }
 }

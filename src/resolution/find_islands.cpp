@@ -40,17 +40,22 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
         join(body, first_mover);
     }
 
-    for (uint body = 0; body < body_count; ++body)
+    for (uint body = 0; body < body_count; ++body) {
         state.islands[body] = is_mover(state.shapes[body]) ? root_of(body) : k_none;
+        state.substeps[body] = state.parameters.least_substeps;
+    }
     for (uint pair = 0; pair < pair_count; ++pair) {
         const uint colour = state.manifold_keys[pair];
         uint island = k_island_bodies; // after all others
         if (colour != k_inactive_colour) {
             const Manifold& manifold = state.manifolds[pair];
             island = state.islands[is_movable(state.shapes[manifold.body_a]) ? manifold.body_a : manifold.body_b];
+            state.substeps[island] = max(state.substeps[island], manifold.substeps);
         }
-        state.manifold_keys[pair] = manifold_key(island, colour);
+        if (launch.args[1] == 1) state.manifold_keys[pair] = manifold_key(island, colour);
     }
+    for (uint body = 0; body < body_count; ++body) // an island's lowest slot comes first, and has its number
+        state.substeps[body] = state.islands[body] == k_none ? 0 : state.substeps[state.islands[body]];
 }
 
 const Kernel find_islands{"resolution/find_islands", find_islands_on_cpu, 1};

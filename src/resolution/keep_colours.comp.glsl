@@ -36,6 +36,7 @@ void main()
     if (manifold.point_count > 0u) {
         atomicAdd(counters[k_counter_manifold_count], 1u);
         atomicAdd(counters[k_counter_contact_count], manifold.point_count);
+        atomicMax(counters[k_counter_substep_demand], manifold.substeps);
         colour = manifold.colour;
         if (colour < k_max_colours) {
             use_colour(manifold.body_a, colour);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One group, an invocation for each colour: whether the colours fit, and the launches of the resolution. args.x: 1 where the world is solved
-// island by island, so that colours need no launches.
+// One group, an invocation for each colour: whether the colours and the sub-steps fit, and the launches of the
+// resolution. args.x: 1 where the world is solved island by island, so that neither needs launches.
 // Reads: ColourOffsets, Counters.
 // Writes: Counters, Dispatches.
 // Needs: a barrier after the sort of the manifolds.
-// Overflow: more colours than the host has launches for are said in k_counter_did_not_fit. Where that is set, by this
+// Overflow: more colours or sub-steps than the host has launches for are said in k_counter_did_not_fit. Where that is set, by this
 // step or an earlier one, all launches are empty.
 #include "state/dispatch.shared.glsl"
 
@@ -23,6 +23,7 @@ void main()
     if (!by_island && (counters[k_counter_colour_demand] > parameters.colour_capacity ||
                        (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;
+    if (!by_island && counters[k_counter_substep_demand] > parameters.substep_capacity) did_not_fit |= k_fit_substeps;
 
     uint on = did_not_fit == 0u ? 1u : 0u;
     uint count = by_island ? 0u : colour_offsets[colour + 1u] - colour_offsets[colour];

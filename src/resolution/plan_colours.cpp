@@ -14,6 +14,8 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     if (!by_island && (counters[k_counter_colour_demand] > state.parameters.colour_capacity ||
                        (overflow_count > 0 && state.parameters.overflow_capacity == 0)))
         counters[k_counter_did_not_fit] |= k_fit_colours;
+    if (!by_island && counters[k_counter_substep_demand] > state.parameters.substep_capacity)
+        counters[k_counter_did_not_fit] |= k_fit_substeps;
 
     const uint on = counters[k_counter_did_not_fit] == 0 ? 1 : 0;
     state.dispatches[k_dispatch_once] = groups_for(on, 1);

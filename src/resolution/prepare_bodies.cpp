@@ -6,11 +6,13 @@
 
 namespace talus::engine {
 
-static void prepare_bodies_on_cpu(CpuState& state, const Launch&) {
+static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(state.parameters.body_count, [&](uint body) {
         const BodyPose& pose = state.poses[body];
         const bool movable = is_movable(state.shapes[body]) && (pose.flags & k_body_frozen) == 0;
-        state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia, movable);
+        const uint substeps = launch.args[0] == 1 ? state.substeps[body] : state.counters[k_counter_substep_demand];
+        state.inertias[body] =
+            world_inertia(pose.rotation, state.properties[body].inverse_inertia, movable, substeps);
         state.deltas[body] = no_delta();
         state.warm_starts[body] = no_warm_start(state.velocities[body]);
     });

@@ -7,6 +7,7 @@
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/tangents.shared.glsl"
+#include "resolution/softness.shared.glsl"
 #include "resolution/contact.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -30,13 +31,18 @@ void main()
     BodyInertia inertia_b = inertias[manifold.body_b];
     BodyVelocity velocity_a = velocities[manifold.body_a];
     BodyVelocity velocity_b = velocities[manifold.body_b];
-    ContactConstraint c = begin_constraint(manifold, manifold_index);
+    precise float inverse_masses = velocity_a.inverse_mass + velocity_b.inverse_mass;
+    ContactConstraint c = begin_constraint(manifold, manifold_index, inverse_masses, inertia_a, inertia_b);
     for (uint i = 0u; i < manifold.point_count; ++i)
         c = add_to_centre(c, manifold_points[4u * manifold_index + i]);
-    c = finish_constraint(c, contact_tangents(manifold.normal), velocity_a, velocity_b, inertia_a, inertia_b);
+    c = finish_constraint(c, inertia_a, inertia_b);
     constraints[index] = c;
-    for (uint i = 0u; i < manifold.point_count; ++i) {
-        ManifoldPoint point = manifold_points[4u * manifold_index + i];
-        constraint_points[4u * index + i] = prepare_point(point, c, velocity_a, velocity_b, inertia_a, inertia_b);
+    for (uint i = 0u; i < 4u; ++i) {
+        ContactConstraintPoint point = no_point();
+        if (i < manifold.point_count) {
+            ManifoldPoint old = manifold_points[4u * manifold_index + i];
+            point = prepare_point(old, c, velocity_a, velocity_b, inertia_a, inertia_b);
+        }
+        constraint_points[4u * index + i] = point;
     }
 }

@@ -16,13 +16,15 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
         const BodyVelocity& velocity_b = state.velocities[manifold.body_b];
         const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * manifold_index];
         ContactConstraint& c = state.constraints[index];
-        c = begin_constraint(manifold, manifold_index);
+        c = begin_constraint(manifold, manifold_index, velocity_a.inverse_mass + velocity_b.inverse_mass, inertia_a,
+                             inertia_b);
         for (uint i = 0; i < manifold.point_count; ++i)
             c = add_to_centre(c, points[i]);
-        c = finish_constraint(c, contact_tangents(manifold.normal), velocity_a, velocity_b, inertia_a, inertia_b);
-        for (uint i = 0; i < manifold.point_count; ++i)
+        c = finish_constraint(c, inertia_a, inertia_b);
+        for (uint i = 0; i < 4; ++i)
             state.constraint_points[std::size_t{4} * index + i] =
-                prepare_point(points[i], c, velocity_a, velocity_b, inertia_a, inertia_b);
+                i < manifold.point_count ? prepare_point(points[i], c, velocity_a, velocity_b, inertia_a, inertia_b)
+                                         : no_point();
     });
 }
 

@@ -17,29 +17,30 @@ void constraint_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_colours, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
     device.run({.kernel = assign_colours, .items = 1});
-    if (plan.by_island) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island}});
+    if (plan.by_island)
+        device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
     sort_by_key(device, {.keys = BufferId::ManifoldKeys,
                          .values = BufferId::ManifoldOrder,
                          .keys_swap = BufferId::SortedManifoldKeys,
                          .values_swap = BufferId::SortedManifoldOrder,
                          .capacity = plan.pair_capacity,
                          .count_counter = k_counter_pair_count,
-                         .bits = plan.by_island ? k_island_key_bits : k_colour_bits,
+                         .bits = plan.in_groups ? k_island_key_bits : k_colour_bits,
                          .slot = k_dispatch_pair_tiles});
-    if (!plan.by_island)
+    if (!plan.in_groups)
         find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
-    device.run({.kernel = plan_colours, .items = 1, .args = {plan.by_island}});
+    device.run({.kernel = plan_colours, .items = 1, .args = {plan.in_groups}});
 }
 
-void prepare(Device& device) {
-    device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies});
+void prepare(Device& device, const StepPlan& plan) {
+    device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.by_island}});
     device.run({.kernel = prepare_contacts, .slot = k_dispatch_manifolds});
 }
 
-/// One pass over all manifolds, colour by colour. The overflow set comes last.
-static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass pass) {
+/// One pass over all manifolds that have this sub-step, colour by colour. The overflow set comes last.
+static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass pass, uint substep = 0) {
     const auto launch = [&](uint colour, uint slot) {
-        device.run({.kernel = solve_contacts, .slot = slot, .args = {colour, static_cast<uint>(pass)}});
+        device.run({.kernel = solve_contacts, .slot = slot, .args = {colour, static_cast<uint>(pass), substep}});
     };
     for (uint colour = 0; colour < plan.colour_capacity; ++colour)
         launch(colour, k_dispatch_colours + colour);
@@ -47,19 +48,19 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 }
 
 void solve(Device& device, const StepPlan& plan) {
-    if (plan.by_island) {
+    if (plan.in_groups) {
         device.run({.kernel = solve_islands, .slot = k_dispatch_islands, .args = {plan.restitution}});
         return;
     }
-    for (uint substep = 0; substep < plan.substeps; ++substep) {
-        device.run({.kernel = integrate_velocities, .slot = k_dispatch_bodies});
+    for (uint substep = 0; substep < plan.substep_capacity; ++substep) {
+        device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {substep}});
         // Later sub-steps find their warm start body by body (body.shared.glsl).
         if (substep == 0) pass_over_contacts(device, plan, ContactPass::WarmStart);
         for (uint i = 0; i < plan.iterations; ++i)
-            pass_over_contacts(device, plan, ContactPass::Solve);
-        device.run({.kernel = integrate_positions, .slot = k_dispatch_bodies});
-        if (plan.relax) pass_over_contacts(device, plan, ContactPass::Relax);
+            pass_over_contacts(device, plan, ContactPass::Solve, substep);
     }
+    device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {plan.substep_capacity}});
+    if (plan.relax) pass_over_contacts(device, plan, ContactPass::Relax);
     if (plan.restitution) pass_over_contacts(device, plan, ContactPass::Restitution);
 }
 

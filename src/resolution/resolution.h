@@ -13,7 +13,7 @@ struct StepPlan;
 /// islands besides, as these are independent.
 void constraint_graph(Device&, const StepPlan&);
 /// Effective masses and the solver's records, in the order of colours.
-void prepare(Device&);
+void prepare(Device&, const StepPlan&);
 /// All sub-steps and the restitution.
 void solve(Device&, const StepPlan&);
 /// Impulses and colours go back to the manifolds, for the next step's warm start.
@@ -26,8 +26,7 @@ extern const Kernel find_islands;
 extern const Kernel plan_colours;
 extern const Kernel prepare_bodies;
 extern const Kernel prepare_contacts;
-extern const Kernel integrate_velocities;
-extern const Kernel integrate_positions;
+extern const Kernel integrate_bodies;
 extern const Kernel solve_contacts;
 extern const Kernel solve_islands;
 extern const Kernel store_contact_impulses;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold of one colour: one pass of sequential impulses over its points (thesis, section 3.4).
-// args.x: the colour; args.y: the pass, k_warm_start, k_solve, k_relax or k_restitution. No two manifolds of a colour
-// share a body that they could push. The overflow set is solved one after the other by a single invocation.
+// args.x: the colour; args.y: the pass, k_warm_start, k_solve, k_relax or k_restitution; args.z: the sub-step. No two
+// manifolds of a colour share a body that they could push. The overflow set is solved one after the other by a single invocation.
 // Reads: ColourOffsets, Constraints, Inertias, Deltas.
-// Writes: Velocities, ConstraintPoints (impulses).
+// Writes: Velocities, Constraints and ConstraintPoints (impulses).
 // Needs: a barrier after the colour before.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/tangents.shared.glsl"
+#include "resolution/softness.shared.glsl"
 #include "resolution/contact.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -30,6 +31,12 @@ void main()
     } else {
         end = min(end, index + 1u);
     }
-    for (; index < end; ++index)
-        pass_over_constraint(args.y, index);
+    for (; index < end; ++index) {
+        if (args.z >= constraints[index].substeps) continue;
+        take_constraint(index);
+        PassTarget target;
+        if (args.y != k_warm_start) target = target_of_pass(args.y, index);
+        pass_over_constraint(args.y, target);
+        if (args.y != k_warm_start) put_back_impulses(index);
+    }
 }

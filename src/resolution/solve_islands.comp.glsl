@@ -2,19 +2,23 @@
 // One group is an island: all its sub-steps, with velocities in shared memory. A pass over a colour costs a barrier here
 // and a dispatch otherwise. The passes and their order are those of solve() in resolution.cpp, and so are the bits:
 // islands do not touch each other. There is a group for each body slot; those that lead no island end at once.
+// An invocation keeps the manifold that it has in hand from pass to pass. Where there are more manifolds than
+// invocations it takes the next one before it waits for the others, so that nobody waits for memory.
 // args.x: 1 where some body bounces, otherwise 0.
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
-// Writes: Velocities, Deltas, WarmStarts, ConstraintPoints (impulses); Poses (flags) and Counters where a body is frozen.
+// Writes: Velocities, Deltas, WarmStarts, Constraints and ConstraintPoints (impulses); Poses (flags) and Counters where a
+// body is frozen.
 // Needs: a barrier after prepare_contacts. At most k_island_bodies body slots.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/tangents.shared.glsl"
+#include "resolution/softness.shared.glsl"
 #include "resolution/contact.shared.glsl"
 #include "resolution/island.shared.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = 256) in;
 
 layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
@@ -46,20 +50,6 @@ void store_velocity(uint body, BodyVelocity velocity)
 #include "resolution/contact_passes.glsl"
 #include "resolution/body_passes.glsl"
 
-const uint k_integrate_velocities = 4u;
-const uint k_integrate_positions = 5u;
-
-// What pass a sub-step makes as its number `phase`. The first sub-step has a warm start besides.
-uint pass_of_phase(uint phase, bool first)
-{
-    uint first_solve = first ? 2u : 1u;
-    uint after_solves = first_solve + parameters.iterations;
-    if (phase == 0u) return k_integrate_velocities;
-    if (phase < first_solve) return k_warm_start;
-    if (phase < after_solves) return k_solve;
-    return phase == after_solves ? k_integrate_positions : k_relax;
-}
-
 // How many manifolds have a lower key.
 uint count_below(uint key)
 {
@@ -75,33 +65,53 @@ uint count_below(uint key)
     return lower;
 }
 
-void pass_over_bodies(uint island, uint pass)
+// This invocation's manifolds: every gl_WorkGroupSize.x-th of the island's, without the overflow set.
+uint first_index;
+uint end_index;
+uint in_hand; // k_none: none
+
+void take(uint index)
 {
-    for (uint body = gl_LocalInvocationID.x; body < parameters.body_count; body += gl_WorkGroupSize.x) {
-        if (islands[body] != island) continue;
-        if (pass == k_integrate_velocities)
-            integrate_body_velocity(body);
-        else
-            integrate_body_position(body);
-    }
-    memoryBarrierBuffer();
-    barrier();
+    if (index >= end_index) index = first_index; // round to the first again
+    if (index == in_hand || index >= end_index) return;
+    if (in_hand != k_none) put_back_impulses(in_hand);
+    take_constraint(index);
+    in_hand = index;
 }
 
 void pass_over_contacts(uint pass)
 {
-    uint last = colour_offsets[k_overflow_colour + 1u];
-    for (uint colour = 0u; colour_offsets[colour] < last; ++colour) {
-        uint index = colour_offsets[colour];
-        uint end = colour_offsets[colour + 1u];
-        if (index == end) continue;
-        bool in_turn = colour == k_overflow_colour; // one after the other
-        uint stride = in_turn ? 1u : gl_WorkGroupSize.x;
-        if (in_turn && gl_LocalInvocationID.x > 0u) index = end;
-        for (index += in_turn ? 0u : gl_LocalInvocationID.x; index < end; index += stride)
-            pass_over_constraint(pass, index);
+    PassTarget target;
+    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass, in_hand);
+    uint colour_end = colour_offsets[0];
+    for (uint colour = 0u; colour < k_max_colours && colour_end < colour_offsets[k_overflow_colour]; ++colour) {
+        uint colour_begin = colour_end;
+        colour_end = colour_offsets[colour + 1u];
+        if (colour_begin == colour_end) continue;
+        while (in_hand >= colour_begin && in_hand < colour_end) {
+            uint done = in_hand;
+            pass_over_constraint(pass, target);
+            take(in_hand + gl_WorkGroupSize.x);
+            if (in_hand <= done) break; // that was the last one: the next pass begins with the first
+            if (pass != k_warm_start) target = target_of_pass(pass, in_hand);
+        }
         barrier();
     }
+
+    uint overflow_end = colour_offsets[k_overflow_colour + 1u];
+    if (colour_offsets[k_overflow_colour] == overflow_end) return;
+    if (gl_LocalInvocationID.x == 0u) { // one after the other
+        if (in_hand != k_none) put_back_impulses(in_hand);
+        in_hand = k_none;
+        for (uint index = colour_offsets[k_overflow_colour]; index < overflow_end; ++index) {
+            take_constraint(index);
+            if (pass != k_warm_start) target = target_of_pass(pass, index);
+            pass_over_constraint(pass, target);
+            put_back_impulses(index);
+        }
+        take(first_index);
+    }
+    barrier();
 }
 
 void main()
@@ -111,24 +121,38 @@ void main()
     if (islands[island] != island) return;
     if (me < k_max_colours + 2u) colour_offsets[me] = count_below(manifold_key(island, me));
     // Of other islands' bodies nothing is read; static ones have no island.
-    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
-        if (islands[body] == island || islands[body] == k_none) store_velocity(body, velocities[body]);
+    uint own_bodies = 0u; // a bit for each body slot that is this invocation's
+    for (uint i = 0u; i < k_island_bodies / gl_WorkGroupSize.x; ++i) {
+        uint body = me + i * gl_WorkGroupSize.x;
+        if (body >= parameters.body_count) break;
+        uint its_island = islands[body];
+        if (its_island == island) own_bodies |= 1u << i;
+        if (its_island == island || its_island == k_none) store_velocity(body, velocities[body]);
     }
     barrier();
+    first_index = colour_offsets[0] + me;
+    end_index = colour_offsets[k_overflow_colour];
+    in_hand = k_none;
+    take(first_index);
 
-    for (uint substep = 0u; substep < parameters.substeps + args.x; ++substep) {
-        bool last = substep == parameters.substeps; // after the sub-steps: restitution alone
-        uint phase_count = (substep == 0u ? 3u : 2u) + parameters.iterations + parameters.relax;
-        for (uint phase = 0u; phase < (last ? 1u : phase_count); ++phase) {
-            uint pass = last ? k_restitution : pass_of_phase(phase, substep == 0u);
-            if (pass == k_integrate_velocities || pass == k_integrate_positions)
-                pass_over_bodies(island, pass);
-            else
-                pass_over_contacts(pass);
+    uint last = inertias[island].substeps;
+    for (uint substep = 0u; substep <= last; ++substep) {
+        for (uint i = 0u; own_bodies >> i != 0u; ++i) {
+            if (((own_bodies >> i) & 1u) == 1u) integrate_body(me + i * gl_WorkGroupSize.x, substep);
         }
+        memoryBarrierBuffer();
+        barrier();
+        if (substep == last) break;
+        if (substep == 0u) pass_over_contacts(k_warm_start);
+        for (uint i = 0u; i < parameters.iterations; ++i)
+            pass_over_contacts(k_solve);
     }
+    if (parameters.relax == 1u) pass_over_contacts(k_relax);
+    if (args.x == 1u) pass_over_contacts(k_restitution);
 
-    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
-        if (islands[body] == island) velocities[body] = load_velocity(body);
+    if (in_hand != k_none) put_back_impulses(in_hand);
+    for (uint i = 0u; own_bodies >> i != 0u; ++i) {
+        uint body = me + i * gl_WorkGroupSize.x;
+        if (((own_bodies >> i) & 1u) == 1u) velocities[body] = load_velocity(body);
     }
 }

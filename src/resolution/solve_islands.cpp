@@ -1,32 +1,62 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of solve_islands.comp.glsl.
+#include <vector>
+
 #include "resolution/body_passes.h"
 #include "resolution/contact_passes.h"
 #include "resolution/resolution.h"
 
 namespace talus::engine {
+namespace {
 
-static void solve_islands_on_cpu(CpuState& state, const Launch& launch) {
-    // Islands do not touch each other, so it is all the same whether they take their passes together or apart.
+struct Island {
+    std::vector<uint> bodies;
+    uint first = 0, end = 0; // manifolds
+};
+
+/// Those that have bodies. Manifolds are sorted by island.
+std::vector<Island> collect_islands(const CpuState& state) {
+    const uint body_count = state.parameters.body_count;
+    std::vector<Island> islands(body_count);
+    for (uint body = 0; body < body_count; ++body)
+        if (state.islands[body] != k_none) islands[state.islands[body]].bodies.push_back(body);
+    uint index = 0;
+    for (uint island = 0; island < body_count; ++island) {
+        islands[island].first = index;
+        while (index < state.counters[k_counter_manifold_count] && state.manifold_keys[index] >> k_colour_bits == island)
+            ++index;
+        islands[island].end = index;
+    }
+    std::erase_if(islands, [](const Island& island) { return island.bodies.empty(); });
+    return islands;
+}
+
+void solve_island(CpuState& state, const Island& island, bool some_bounce) {
     const Parameters& p = state.parameters;
-    const auto over_bodies = [&](const auto& pass) {
-        for (uint body = 0; body < p.body_count; ++body)
-            pass(state, body);
+    const auto over_contacts = [&](ContactPass pass, uint substep = 0) {
+        for (uint index = island.first; index < island.end; ++index)
+            pass_over_constraint(state, pass, substep, index);
     };
-    const auto over_contacts = [&](ContactPass pass) {
-        for (uint index = 0; index < state.counters[k_counter_manifold_count]; ++index)
-            pass_over_constraint(state, pass, index);
-    };
-    for (uint substep = 0; substep < p.substeps; ++substep) {
-        over_bodies(integrate_body_velocity);
+    const uint last = state.substeps[island.bodies.front()];
+    for (uint substep = 0; substep <= last; ++substep) {
+        for (const uint body : island.bodies)
+            integrate_body(state, body, substep);
+        if (substep == last) break;
         if (substep == 0) over_contacts(ContactPass::WarmStart);
         for (uint i = 0; i < p.iterations; ++i)
-            over_contacts(ContactPass::Solve);
-        over_bodies(integrate_body_position);
-        if (p.relax == 1) over_contacts(ContactPass::Relax);
+            over_contacts(ContactPass::Solve, substep);
     }
-    if (launch.args[0] == 1) over_contacts(ContactPass::Restitution);
+    if (p.relax == 1) over_contacts(ContactPass::Relax);
+    if (some_bounce) over_contacts(ContactPass::Restitution);
 }
+
+void solve_islands_on_cpu(CpuState& state, const Launch& launch) {
+    const std::vector<Island> islands = collect_islands(state);
+    state.parallel(
+        static_cast<uint>(islands.size()), [&](uint i) { solve_island(state, islands[i], launch.args[0] == 1); }, 2);
+}
+
+} // namespace
 
 const Kernel solve_islands{"resolution/solve_islands", solve_islands_on_cpu, 1};
 

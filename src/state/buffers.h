@@ -40,12 +40,13 @@ namespace talus::engine {
     X(Pairs, pairs, Pair, "uu", Result)                                                                                \
     /* narrow phase */                                                                                                 \
     X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
-    X(OldManifolds, old_manifolds, Manifold, "uuuufffufffffuuu", State)                                                \
+    X(OldManifolds, old_manifolds, Manifold, "uuuufffuffffffuu", State)                                                \
     X(OldManifoldPoints, old_manifold_points, ManifoldPoint, "fffffffuffff", State)                                    \
-    X(Manifolds, manifolds, Manifold, "uuuufffufffffuuu", Result)                                                      \
+    X(Manifolds, manifolds, Manifold, "uuuufffuffffffuu", Result)                                                      \
     X(ManifoldPoints, manifold_points, ManifoldPoint, "fffffffuffff", Result)                                          \
     /* resolution */                                                                                                   \
     X(Islands, islands, uint, "u", Result)                                                                             \
+    X(Substeps, substeps, uint, "u", Result)                                                                           \
     X(BodyColours, body_colours, uint, "u", Scratch)                                                                   \
     X(Uncoloured, uncoloured, uint, "u", Scratch)                                                                      \
     X(ManifoldKeys, manifold_keys, uint, "u", Result)                                                                  \
@@ -56,7 +57,7 @@ namespace talus::engine {
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
-    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffuffffff", Result)                                 \
+    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffufffffu", Result)                                 \
     X(ConstraintPoints, constraint_points, ContactConstraintPoint, "ffffffffffff", Result)                             \
     /* control */                                                                                                      \
     X(Counters, counters, uint, "u", State)                                                                            \

@@ -17,6 +17,7 @@ const uint k_kind_absent = 255u; // an empty body slot
 
 // BodyPose::flags
 const uint k_body_frozen = 1u; // went non-finite; stays where it was
+const uint k_body_placed = 2u; // the caller put it there since the last step
 
 // BodyProperties::combine
 const uint k_combine_average = 0u;
@@ -43,11 +44,13 @@ const uint k_counter_uncoloured = 7u;     // manifolds still without a colour
 const uint k_counter_did_not_fit = 8u;    // k_fit_* bits; sticky until the host has made room
 const uint k_counter_frozen_bodies = 9u;  // in all steps so far
 const uint k_counter_old_pair_count = 10u; // entries of OldManifolds
+const uint k_counter_substep_demand = 11u; // most sub-steps that a manifold asks for
 const uint k_counter_words = 16u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
 const uint k_fit_colours = 2u;
+const uint k_fit_substeps = 4u;
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.

@@ -49,6 +49,9 @@ inline vec3 min(vec3 a, vec3 b) {
 inline vec3 max(vec3 a, vec3 b) {
     return vec3(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z));
 }
+inline vec4 max(vec4 a, vec4 b) {
+    return vec4(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z), max(a.w, b.w));
+}
 inline vec3 abs(vec3 v) {
     return vec3(abs(v.x), abs(v.y), abs(v.z));
 }

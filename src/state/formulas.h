@@ -13,6 +13,7 @@ namespace talus::engine {
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
 
+#include "resolution/softness.shared.glsl"
 #include "resolution/tangents.shared.glsl"
 
 #include "narrow_phase/contact_geometry.shared.glsl"

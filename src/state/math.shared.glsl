@@ -48,6 +48,12 @@ inline float dot3(vec3 a, vec3 b)
     return r;
 }
 
+inline float sum4(vec4 v)
+{
+    precise float r = (v.x + v.y) + (v.z + v.w);
+    return r;
+}
+
 inline vec3 cross3(vec3 a, vec3 b)
 {
     precise float x = a.y * b.z - a.z * b.y;

@@ -7,7 +7,7 @@
 // 32 bytes. The renderer draws from these.
 struct BodyPose {
     vec3 position; // m, world, centre of mass
-    uint flags;    // k_body_frozen
+    uint flags;    // k_body_*
     vec4 rotation; // body to world, x y z w
 };
 
@@ -82,8 +82,8 @@ struct BodyInertia {
     float xy;
     float xz;
     float yz;
-    uint movable; // 1 where contacts can push the body
-    uint reserved;
+    uint movable;  // 1 where contacts can push the body
+    uint substeps; // sub-steps of its island
 };
 
 // ---- contacts ----
@@ -104,12 +104,12 @@ struct Manifold {
     uint axis;        // the separating axis it stands on, see narrow_phase/collide_boxes.shared.glsl
     float friction;
     float restitution;
-    float tangent_impulse_1; // N s, accumulated; friction of all points together
+    float tangent_impulse_1; // N s, over the step; friction of all points together
     float tangent_impulse_2;
     float twist_impulse; // N m s, about the normal
-    uint reserved_1;
-    uint reserved_2;
-    uint reserved_3;
+    float weights;       // of the lighter body, that pressed the two together in the last step
+    uint substeps;       // that the load asks for
+    uint idle_steps;     // steps in a row in which half the sub-steps would have done; see softness.shared.glsl
 };
 
 // 48 bytes, four a pair.
@@ -119,7 +119,7 @@ struct ManifoldPoint {
     vec3 anchor_b;    // m, from B's centre, world axes
     uint feature_id;
     vec3 position;        // m, world: where the point was when it was found, before the bodies moved on
-    float normal_impulse; // N s, accumulated
+    float normal_impulse; // N s, over the step
 };
 
 // 96 bytes, one a manifold, in the order of the solve: what the solver reads of it.
@@ -136,13 +136,13 @@ struct ContactConstraint {
     float tangent_mass_2;
     float restitution;
     uint against_static; // 1 where contacts can push only one of the two
-    float twist_mass;    // kg m^2, about the normal
-    float reserved_1;
+    float twist_mass;     // kg m^2, about the normal
+    float inverse_masses; // 1/kg, the sum of both
     // What the solver's passes change.
     float tangent_impulse_1; // N s, accumulated
     float tangent_impulse_2;
     float twist_impulse; // N m s, accumulated
-    float reserved_2;
+    uint substeps;
 };
 
 // 48 bytes, four a constraint.
@@ -188,30 +188,29 @@ struct SweepAxis {
 // The step's constants, 112 bytes: a uniform block in GLSL.
 struct Parameters {
     vec3 gravity; // m/s^2
+    float inverse_weight; // s/m: 1 / (g dt); makes an impulse over a mass a number of weights
     float dt;     // s, the step
-    float h;      // s, the sub-step
-    float inv_h;  // 1/s
+    float inv_dt; // 1/s
     float restitution_threshold; // m/s
     float contact_push_speed;    // m/s
-    // softness of a contact between moving bodies, and against one that contacts cannot push (solver.md)
-    float bias_rate;
-    float mass_scale;
-    float impulse_scale;
-    float static_bias_rate;
-    float static_mass_scale;
-    float static_impulse_scale;
+    float contact_frequency; // rad/s, of soft contacts, at most
+    float contact_damping_ratio;
+    float baumgarte; // 0 for soft contacts
+    float linear_slop; // m, overlap that is left alone
     float max_linear_speed;
     float max_angular_speed;
+    float speculative_distance; // m
     uint body_count; // body slots in use, holes included
-    uint substeps;
+    uint least_substeps;
+    uint most_substeps;
+    uint substep_capacity; // sub-steps that get launches
     uint iterations;
-    uint relax; // 1 where a pass without bias follows each sub-step
+    uint relax; // 1 where a pass without bias ends the step
     uint pair_capacity;
     uint colour_capacity;
     uint overflow_capacity; // 1 where the overflow set has launches
     uint table_size; // slots of the pair table, a power of two
-    float linear_slop; // m, overlap that is left alone
-    float speculative_distance; // m
     uint reserved_1;
     uint reserved_2;
+    uint reserved_3;
 };

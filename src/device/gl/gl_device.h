@@ -24,7 +24,6 @@ public:
     ~GlDevice() override;
 
     DeviceInfo info() const override { return context_->info(); }
-    bool runs_groups_at_once() const override { return !context_->is_software(); }
     bool loops_freely() const override { return !context_->is_software(); }
     void grow(BufferId, std::size_t bytes) override;
     std::size_t size(BufferId) const override;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: forces of one sub-step.
-// Reads: Shapes, Properties, Loads, Inertias, Deltas, Poses.
-// Writes: Velocities, WarmStarts; Poses (flags) and Counters where a body is frozen.
+// One invocation is a body slot: the movement that ends a sub-step, and the forces that begin the next one.
+// args.x: the sub-step that begins.
+// Reads: Shapes, Properties, Loads, Inertias.
+// Writes: Velocities, Deltas, WarmStarts; Poses (flags) and Counters where a body is frozen.
 // Needs: a barrier after prepare_bodies, and after the pass before.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
+#include "resolution/softness.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -23,5 +25,5 @@ void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = veloc
 void main()
 {
     uint body = item_index();
-    if (body < parameters.body_count) integrate_body_velocity(body);
+    if (body < parameters.body_count) integrate_body(body, args.x);
 }

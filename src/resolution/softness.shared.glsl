@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Sub-steps: how many a load asks for, and how soft contacts are in them. docs/solver.md has the derivation.
+
+struct Softness {
+    float bias_rate;     // 1/s
+    float mass_scale;    // 1 for a rigid row
+    float impulse_scale; // 0 for a rigid row
+};
+
+// A spring and a damper of angular frequency w and damping ratio z, stepped implicitly over h, which is stable however
+// stiff they are. Catto, "Soft Contacts" (2023) and "Solver2D" (2024).
+inline Softness soft_row(float w, float z, float h)
+{
+    precise float a = 2.0f * z + h * w;
+    precise float b = h * w * a;
+    precise float bias_rate = w * reciprocal(a);
+    precise float impulse_scale = reciprocal(1.0f + b);
+    precise float mass_scale = b * impulse_scale;
+    Softness soft;
+    soft.bias_rate = bias_rate;
+    soft.mass_scale = mass_scale;
+    soft.impulse_scale = impulse_scale;
+    return soft;
+}
+
+// One of the equal parts of a step.
+struct Substep {
+    float h;     // s
+    float inv_h; // 1/s
+    Softness soft;
+};
+
+// A contact's frequency is an eighth of the sub-step rate, the stiffest that does not ring, and at most
+// contact_frequency (rad/s); twice that against a body that cannot be pushed. Baumgarte's rows are rigid, with the
+// bias rate of equation 3.17.
+inline Substep make_substep(uint substeps, bool against_static, Parameters p)
+{
+    Substep s;
+    precise float h = p.dt * reciprocal(float(substeps));
+    precise float inv_h = p.inv_dt * float(substeps);
+    s.h = h;
+    s.inv_h = inv_h;
+    if (p.baumgarte > 0.0f) {
+        precise float rate = p.baumgarte * inv_h;
+        s.soft.bias_rate = rate;
+        s.soft.mass_scale = 1.0f;
+        s.soft.impulse_scale = 0.0f;
+        return s;
+    }
+    precise float eighth = 0.785398163f * inv_h; // 2 pi / 8
+    precise float w = min(eighth, p.contact_frequency) * (against_static ? 2.0f : 1.0f);
+    s.soft = soft_row(w, p.contact_damping_ratio, h);
+    return s;
+}
+
+// ---- how many ----
+
+// Sub-steps for each weight of a body that presses on it or on the body below: a tower then sinks by the same 7 mm
+// whatever its height, and one of a hundred boxes does not buckle.
+const float k_substeps_a_weight = 0.65f;
+
+// More sub-steps are had at once, fewer only after so many steps in a row in which half would have done: a change of
+// stiffness shakes what stands, which changes the load, and without patience a tower never came to rest.
+const uint k_patience = 64u;
+// What stands where the caller has put it is given the most until its load is known: with few sub-steps a tower would be
+// shaken while the load builds up.
+const uint k_trial = 1000u;      // Manifold::idle_steps counts up from here in a trial
+const uint k_trial_steps = 32u;
+
+// The numbers in use are apart by half or a third: least, 1.5 least, 2 least, 3 least, 4 least, ...
+inline uint substep_level(uint level, uint least)
+{
+    uint whole = least << (level / 2u);
+    return (level & 1u) == 0u ? whole : whole + whole / 2u;
+}
+
+// The lowest number that is enough for a load.
+inline uint wanted_substeps(float weights, Parameters p)
+{
+    precise float wanted = k_substeps_a_weight * weights;
+    for (uint level = 0u; level < 16u; level += 1u) {
+        uint substeps = substep_level(level, p.least_substeps);
+        if (substeps >= p.most_substeps) return p.most_substeps;
+        if (float(substeps) >= wanted) return substeps;
+    }
+    return p.most_substeps;
+}
+
+// How many weights of the lighter body press a manifold together: both bodies carry that at least. `impulse` is that of
+// the whole step.
+inline float weights_on(float impulse, float inverse_mass_a, float inverse_mass_b, Parameters p)
+{
+    precise float weights = impulse * max(inverse_mass_a, inverse_mass_b) * p.inverse_weight;
+    return weights;
+}
