@@ -141,16 +141,6 @@ struct World::Impl {
 
 namespace {
 
-Settings checked(const Settings& settings) {
-    check_settings(settings);
-    return settings;
-}
-
-const WorldOptions& checked(const WorldOptions& options) {
-    check_options(options);
-    return options;
-}
-
 std::string name_of(const char* call, BodyId id) {
     return fmt::format("{}: body {}", call, id.index);
 }
@@ -158,8 +148,10 @@ std::string name_of(const char* call, BodyId id) {
 } // namespace
 
 World::World(const Settings& settings, const WorldOptions& options) {
+    check_settings(settings);
+    check_options(options);
     const CallersContext callers(options.device != DeviceKind::Cpu && options.gl_context == GlContext::Own);
-    impl_ = std::make_unique<Impl>(checked(settings), checked(options));
+    impl_ = std::make_unique<Impl>(settings, options);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -451,7 +443,8 @@ const Settings& World::settings() const noexcept {
 }
 
 void World::set_settings(const Settings& settings) {
-    impl_->set_settings(checked(settings));
+    check_settings(settings);
+    impl_->set_settings(settings);
 }
 
 const DeviceInfo& World::device() const noexcept {
