@@ -52,7 +52,7 @@ std::string remarks(const Json& earlier, const Json& now) {
         const Json before = value_at(earlier, key), after = value_at(now, key);
         if (before != after) text += fmt::format(" {} was {}, is {};", key + 1, before.dump(), after.dump());
     }
-    if (!text.empty()) text.back() = ' ';
+    if (!text.empty()) text.pop_back();
     return text;
 }
 
