@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// A peer has no stages, colours or buffers that Talus could see: such keys are null, never 0.
 #include "bench/row.h"
 
 namespace talus::bench {

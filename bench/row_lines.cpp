@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// A line is checked when it is read, so that a comparison never stops half-way.
 #include "bench/row_lines.h"
 
 #include <array>

@@ -3,7 +3,11 @@
 // plays the scene that it is given.
 #include <cmath>
 #include <fstream>
+#include <memory>
+#include <sstream>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
