@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a simulation from the command line can be told. `run` offers all of it; `demo` and `parity` a part.
+// What a simulation from the command line can be told. `run` offers all of it; `demo` and `bench` a part.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +42,8 @@ struct OutputOptions {
 void add_simulation_options(CLI::App& command, SimulationOptions& options);
 void add_output_options(CLI::App& command, OutputOptions& options);
 void add_device_options(CLI::App& command, SimulationOptions& options);
+/// The length of a step and how it is solved.
+void add_solver_options(CLI::App& command, SimulationOptions& options);
 
 /// The scene's settings with the options on top.
 Settings settings_of(const scenes::Scene&, const SimulationOptions&);

@@ -56,12 +56,6 @@ std::string contact_text(const StepReport& step) {
     return text;
 }
 
-/// Lengths from nanometres to kilometres in a unit that keeps the digits few.
-std::string length_text(double metres) {
-    if (metres < 0.1) return fmt::format("{:.3g} mm", metres * 1e3);
-    return fmt::format("{:.4g} m", metres);
-}
-
 std::string stage_rows(const std::vector<double>& stage_ms) {
     const double total = std::accumulate(stage_ms.begin(), stage_ms.end(), 0.0);
     std::string rows;
@@ -73,6 +67,11 @@ std::string stage_rows(const std::vector<double>& stage_ms) {
 }
 
 } // namespace
+
+std::string length_text(double metres) {
+    if (metres < 0.1) return fmt::format("{:.3g} mm", metres * 1e3);
+    return fmt::format("{:.4g} m", metres);
+}
 
 std::string summary_of(const RunReport& report, bool stages) {
     const Quality& quality = report.quality;

@@ -11,4 +11,7 @@ namespace talus::cli {
 /// Several lines, the last one ended too. With `stages`, also how long each stage took.
 std::string summary_of(const RunReport&, bool stages);
 
+/// Lengths from nanometres to kilometres in a unit that keeps the digits few.
+std::string length_text(double metres);
+
 } // namespace talus::cli

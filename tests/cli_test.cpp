@@ -1,72 +1,32 @@
 // SPDX-License-Identifier: MIT
 // The program talus, run as a user runs it: exit status, what it prints, and the files it leaves.
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <talus/recording.h>
 #include <talus/world.h>
+
+#include "program.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-struct Ending {
-    int status = 0;
-    std::string output, errors;
-};
-
-class Program : public testing::Test {
-protected:
-    Program() { fs::create_directories(folder); }
-    ~Program() override { fs::remove_all(folder.parent_path()); }
-
-    /// Runs a line of shell in an empty folder that has a space in its name. `talus` stands for the program.
-    Ending shell(const std::string& line) const {
-        const fs::path output = folder.parent_path() / "output", errors = folder.parent_path() / "errors";
-        const std::string command = "cd '" + folder.string() +
-                                    "' && talus() { '" TALUS_PROGRAM_FILE "' \"$@\"; } && { " + line + "; } >'" +
-                                    output.string() + "' 2>'" + errors.string() + "' </dev/null";
-        const int result = std::system(command.c_str());
-        return {WIFEXITED(result) ? WEXITSTATUS(result) : -1, text_of(output), text_of(errors)};
-    }
-    Ending talus(const std::string& arguments) const { return shell("talus " + arguments); }
-    Ending run_on_cpu(const std::string& arguments) const { return talus("run --device cpu " + arguments); }
-
-    static std::string text_of(const fs::path& path) {
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-    json json_of(const std::string& name) const { return json::parse(text_of(folder / name)); }
-    bool folder_is_empty() const { return fs::is_empty(folder); }
-
-    const fs::path folder =
-        fs::path(testing::TempDir()) / ("talus program " + std::to_string(getpid())) / "an empty folder";
-};
+using talus::tests::Ending;
+using talus::tests::keys_of;
+using talus::tests::Program;
 
 /// Runs that draw need OpenGL.
 class ProgramPictures : public Program {};
 
-std::vector<std::string> keys_of(const json& object) {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : object.items())
-        keys.push_back(key);
-    return keys; // in alphabetical order
-}
-
 TEST_F(Program, explains_itself) {
     const Ending help = talus("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* command : {"demo", "run", "parity", "scenes", "devices", "./talus test"})
+    for (const char* command : {"demo", "run", "bench", "parity", "scenes", "devices", "./talus test"})
         EXPECT_NE(help.output.find(command), std::string::npos) << command;
     EXPECT_EQ(talus("run --help").status, 0);
     EXPECT_NE(talus("scenes").output.find("stack"), std::string::npos);

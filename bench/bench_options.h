@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// What `talus bench` can be told.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include "cli/run_options.h"
+
+namespace talus::bench {
+
+struct BenchOptions {
+    std::vector<std::string> scenes;                      ///< empty: a list that suits the devices
+    std::vector<DeviceKind> devices = {DeviceKind::Auto}; ///< each scene runs on each of them
+    /// How each run is made. Its scene and device are set for each case; steps and threads are those asked for.
+    cli::SimulationOptions simulation;
+    std::uint32_t repeats = 1;
+    std::string peer; ///< another engine by its name; empty: none
+    bool stages = false;
+    bool json = false;
+    std::filesystem::path against;       ///< lines of an earlier `--json`; empty: none
+    std::filesystem::path solver_curves; ///< CSV file of the other experiment; empty: the benchmark
+};
+
+void add_bench_options(CLI::App& command, BenchOptions& options);
+
+} // namespace talus::bench
