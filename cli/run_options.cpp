@@ -100,7 +100,10 @@ void add_solver_options(CLI::App& command, SimulationOptions& options) {
     command.add_option("--dt", options.dt, "Length of a step in seconds; by default 1/60")
         ->check(CLI::Validator(check_seconds, ""))
         ->type_name("S");
-    command.add_option("--substeps", options.substeps, "Sub-steps of every step, for soft stabilisation; by default 8, and as many as the load on an island asks for")
+    command
+        .add_option("--substeps", options.substeps,
+                    "Sub-steps of every step, for soft stabilisation; by default 8, and as many as the load on an "
+                    "island asks for")
         ->check(CLI::Range(1u, 1000u))
         ->type_name("N");
     command

@@ -21,16 +21,14 @@ constexpr uint k_first_colours = 8;
 constexpr std::size_t k_most_pending = k_ring_size - 1;
 // Where all bodies have the same number of sub-steps, the heaviest load of a large world must not cost too much.
 constexpr uint k_most_substeps_of_all = 32;
-// A box that bounces on four points is within 1 % of the height that it should reach.
-constexpr uint k_restitution_passes = 8;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
 constexpr std::array k_body_buffers{
-    BufferId::Poses,       BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
-    BufferId::Aabbs,       BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
-    BufferId::SortedAabbs, BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,
-    BufferId::Substeps,
+    BufferId::Poses,      BufferId::Velocities, BufferId::Shapes,      BufferId::Properties,
+    BufferId::Loads,      BufferId::Aabbs,      BufferId::SortKeys,    BufferId::SortValues,
+    BufferId::PairCounts, BufferId::SpreadSums, BufferId::SortedAabbs, BufferId::Inertias,
+    BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,     BufferId::Substeps,
 };
 
 constexpr std::array k_pair_buffers{
@@ -146,7 +144,6 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.body_count = population.slots;
     now.iterations = passes.iterations;
     now.relax = passes.relax;
-    now.restitution_passes = population.some_bounce ? k_restitution_passes : 0;
     now.by_island = population.slots <= k_island_bodies;
     now.one_island = population.some_kinematic;
     now.in_groups = now.by_island && placement.resolution->loops_freely();

@@ -8,8 +8,7 @@ namespace talus::engine {
 
 /// What the host knows of the bodies.
 struct Population {
-    uint slots = 0;           ///< body slots in use, holes included
-    bool some_bounce = false; ///< there is a restitution above 0
+    uint slots = 0; ///< body slots in use, holes included
     bool some_kinematic = false;
 };
 
@@ -29,7 +28,6 @@ struct StepPlan {
     uint substep_capacity = 0; ///< sub-steps that get launches
     uint iterations = 0;
     bool relax = false;
-    uint restitution_passes = 0; ///< where some body bounces
 };
 
 /// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.

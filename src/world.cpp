@@ -323,7 +323,6 @@ void World::set_material(BodyId id, const Material& material) {
     impl_->touch(slot, k_dirty_properties);
     BodyTable& table = impl_->table;
     BodyProperties& properties = table.properties[slot];
-    table.bouncing_count += (material.restitution > 0.0f) - (properties.restitution > 0.0f);
     properties.friction = material.friction;
     properties.restitution = material.restitution;
     properties.combine = pack_combine(material);
@@ -363,14 +362,25 @@ std::vector<Contact> World::contacts() const {
     const CallersContext callers(impl_->own_context);
     impl_->simulation.settle();
     const uint pair_count = impl_->simulation.report().pairs;
+    const uint manifold_count = impl_->simulation.report().manifolds;
     std::vector<Manifold> manifolds(pair_count);
     std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
-    // The step's end has made its manifolds the old ones.
+    std::vector<ContactConstraint> constraints(manifold_count);
+    std::vector<ContactConstraintPoint> constraint_points(std::size_t{4} * manifold_count);
+    // The step's end has made its manifolds the old ones. Their impulses are what the next step starts from; those of
+    // this one are still with the constraints.
     const std::array requests{
         ReadRequest{BufferId::OldManifolds, manifolds.size() * sizeof(Manifold), manifolds.data()},
         ReadRequest{BufferId::OldManifoldPoints, points.size() * sizeof(ManifoldPoint), points.data()},
+        ReadRequest{BufferId::Constraints, constraints.size() * sizeof(ContactConstraint), constraints.data()},
+        ReadRequest{BufferId::ConstraintPoints, constraint_points.size() * sizeof(ContactConstraintPoint),
+                    constraint_points.data()},
     };
     impl_->simulation.state_device().read(requests);
+    std::vector<float> impulses(points.size());
+    for (std::size_t i = 0; i < constraint_points.size(); ++i)
+        impulses[std::size_t{4} * constraints[i / 4].manifold + i % 4] =
+            constraint_points[i].total_impulse + constraint_points[i].hit_impulse;
     std::vector<Contact> result;
     for (uint i = 0; i < pair_count; ++i) {
         const Manifold& manifold = manifolds[i];
@@ -378,8 +388,9 @@ std::vector<Contact> World::contacts() const {
         Contact contact{
             impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b), from_glm(manifold.normal), {}};
         for (std::size_t k = 0; k < manifold.point_count; ++k) {
-            const ManifoldPoint& point = points[std::size_t{4} * i + k];
-            contact.points.push_back({from_glm(point.position), point.separation, point.normal_impulse});
+            const std::size_t index = std::size_t{4} * i + k;
+            const ManifoldPoint& point = points[index];
+            contact.points.push_back({from_glm(point.position), point.separation, impulses[index]});
         }
         result.push_back(std::move(contact));
     }

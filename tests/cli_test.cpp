@@ -102,7 +102,7 @@ TEST_F(Program, report_has_every_key) {
     EXPECT_EQ(report["device"]["kind"], "cpu");
     EXPECT_EQ(report["threads"], 2);
     EXPECT_EQ(report["steps"], 20);
-    EXPECT_EQ(report["substeps"], 4);
+    EXPECT_GE(report["substeps"], 8);
     EXPECT_EQ(report["bodies"]["dynamic"], 3);
     EXPECT_EQ(report["manifolds"], 3);
     EXPECT_EQ(report["contacts"], 12);

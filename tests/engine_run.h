@@ -37,7 +37,8 @@ public:
     /// A step as large worlds make it: a launch a colour and pass, where a small world has its solve in one work group.
     void step_in_many_launches() {
         engine::StepPlan plan = simulation.plan_step(table.population());
-        plan.by_island = false;
+        plan.in_groups = false;
+        plan.substep_capacity = plan.most_substeps;
         plan.colour_capacity = engine::k_max_colours;
         plan.overflow = true;
         engine::Device& device = simulation.state_device();

@@ -17,7 +17,9 @@ protected:
     World world_with(const Capacities& capacities) const {
         WorldOptions options = options_on(GetParam());
         options.capacities = capacities;
-        return World({}, options);
+        Settings settings;
+        settings.max_substeps = settings.substeps; // more of them would ask for launches as well
+        return World(settings, options);
     }
 };
 

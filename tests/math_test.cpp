@@ -165,8 +165,8 @@ TEST(Math, world_inertia_is_the_body_inertia_turned) {
         const vec3 v = samples.vector();
         const glm::dmat3 r = matrix_of(q);
         const glm::dvec3 expected = r * (glm::dvec3(inverse) * (glm::transpose(r) * glm::dvec3(v)));
-        ASSERT_LT(distance(multiply_inertia(world_inertia(q, inverse, true), v), expected), 3e-6);
-        ASSERT_EQ(multiply_inertia(world_inertia(q, inverse, false), v), vec3(0.0f));
+        ASSERT_LT(distance(multiply_inertia(world_inertia(q, inverse, true, false, 8), v), expected), 3e-6);
+        ASSERT_EQ(multiply_inertia(world_inertia(q, inverse, false, false, 8), v), vec3(0.0f));
     }
 }
 
@@ -205,7 +205,8 @@ TEST(Math, tangents_make_a_right_handed_frame_with_the_normal) {
 Parameters parameters_for(const Settings& settings) {
     const Passes passes = passes_of(settings);
     StepPlan plan;
-    plan.substeps = passes.substeps;
+    plan.least_substeps = passes.least_substeps;
+    plan.most_substeps = passes.most_substeps;
     plan.iterations = passes.iterations;
     plan.relax = passes.relax;
     return make_parameters(settings, plan);
@@ -218,20 +219,22 @@ TEST(Math, a_soft_contact_never_overshoots) {
                 Settings settings;
                 settings.contact_hertz = hertz;
                 settings.contact_damping_ratio = damping;
-                settings.substeps = substeps;
                 const Parameters p = parameters_for(settings);
                 SCOPED_TRACE(testing::Message() << hertz << " Hz, damping " << damping << ", sub-steps " << substeps);
+                const float h = substep_length(substeps, p);
                 for (const bool against_static : {false, true}) {
-                    const Softness s = contact_softness(against_static, p);
+                    const Softness s = make_substep(substeps, against_static, p).soft;
                     // At most the whole overlap is removed in a sub-step, and the row is between absent and rigid.
-                    EXPECT_GE(s.bias_rate * p.h, 0.0f);
-                    EXPECT_LE(s.bias_rate * p.h, 1.000001f);
+                    EXPECT_GE(s.bias_rate * h, 0.0f);
+                    EXPECT_LE(s.bias_rate * h, 1.000001f);
                     EXPECT_NEAR(s.mass_scale + s.impulse_scale, 1.0f, 1e-6f);
                     EXPECT_GE(s.mass_scale, 0.0f);
                     EXPECT_LE(s.mass_scale, 1.0f);
                 }
-                EXPECT_GE(p.static_mass_scale, p.mass_scale);
-                EXPECT_GE(p.static_bias_rate, p.bias_rate);
+                const Softness moving = make_substep(substeps, false, p).soft;
+                const Softness against_static = make_substep(substeps, true, p).soft;
+                EXPECT_GE(against_static.mass_scale, moving.mass_scale);
+                EXPECT_GE(against_static.bias_rate, moving.bias_rate);
             }
         }
     }
@@ -241,25 +244,55 @@ TEST(Math, softness_has_the_limits_of_its_spring) {
     Settings settings;
     settings.contact_hertz = 1e-3f;
     settings.contact_damping_ratio = 1.0f;
-    Parameters p = parameters_for(settings);
-    EXPECT_LT(p.mass_scale, 1e-3f) << "a spring of almost no stiffness";
-    EXPECT_NEAR(p.bias_rate, std::numbers::pi_v<float> * 1e-3f, 1e-6f) << "w / 2z where h w is small";
+    Softness soft = make_substep(4, false, parameters_for(settings)).soft;
+    EXPECT_LT(soft.mass_scale, 1e-3f) << "a spring of almost no stiffness";
+    EXPECT_NEAR(soft.bias_rate, std::numbers::pi_v<float> * 1e-3f, 1e-6f) << "w / 2z where h w is small";
 
-    // Stiffer than a quarter of the sub-step rate is not possible.
-    settings.contact_hertz = 0.25f * 4.0f * 60.0f;
-    p = parameters_for(settings);
+    // Stiffer than an eighth of the sub-step rate is not possible.
+    settings.contact_hertz = 4.0f * 60.0f / 8.0f;
+    soft = make_substep(4, false, parameters_for(settings)).soft;
     settings.contact_hertz = 1e5f;
-    EXPECT_FLOAT_EQ(parameters_for(settings).bias_rate, p.bias_rate);
-    EXPECT_FLOAT_EQ(parameters_for(settings).static_bias_rate, p.static_bias_rate);
+    EXPECT_FLOAT_EQ(make_substep(4, false, parameters_for(settings)).soft.bias_rate, soft.bias_rate);
+    EXPECT_GT(make_substep(5, false, parameters_for(settings)).soft.bias_rate, soft.bias_rate);
 
     settings.stabilisation = Stabilisation::Baumgarte; // equation 3.17: beta / dt, and a rigid row
     settings.baumgarte = 0.3f;
-    p = parameters_for(settings);
-    EXPECT_FLOAT_EQ(p.h, settings.dt);
-    EXPECT_FLOAT_EQ(p.bias_rate, 0.3f / settings.dt);
-    EXPECT_EQ(p.mass_scale, 1.0f);
-    EXPECT_EQ(p.impulse_scale, 0.0f);
+    const Parameters p = parameters_for(settings);
+    soft = make_substep(1, false, p).soft;
+    EXPECT_FLOAT_EQ(substep_length(1, p), settings.dt);
+    EXPECT_FLOAT_EQ(soft.bias_rate, 0.3f / settings.dt);
+    EXPECT_EQ(soft.mass_scale, 1.0f);
+    EXPECT_EQ(soft.impulse_scale, 0.0f);
     EXPECT_EQ(p.relax, 0u);
+    EXPECT_EQ(p.most_substeps, 1u);
+}
+
+TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {
+    const Parameters p = parameters_for(Settings{});
+    EXPECT_EQ(wanted_substeps(0.0f, p), 8u);
+    EXPECT_EQ(wanted_substeps(14.0f, p), 8u);
+    EXPECT_EQ(wanted_substeps(1e30f, p), 128u);
+    uint before = 8;
+    for (float weights = 0.0f; weights < 200.0f; weights += 0.25f) {
+        const uint substeps = wanted_substeps(weights, p);
+        EXPECT_GE(substeps, before) << weights;
+        EXPECT_LE(substeps, std::max(8.0f, 1.5f * std::max(0.5f * weights, 0.0951f * std::pow(weights, 1.5f))))
+            << weights;
+        EXPECT_GE(static_cast<float>(substeps), std::min(128.0f, 0.0949f * std::pow(weights, 1.5f))) << weights;
+        before = substeps;
+    }
+    Settings few;
+    few.substeps = few.max_substeps = 7;
+    EXPECT_EQ(wanted_substeps(500.0f, parameters_for(few)), 7u) << "a number of the caller's";
+}
+
+/// One point, or many on a lever, that press with this force and torque limit.
+FrictionTarget friction_of(vec3 mass, float force, float torque) {
+    ManifoldRows rows{};
+    rows.friction_mass = mass;
+    rows.friction = 1.0f;
+    rows.lever = vec4(force > 0.0f ? torque / force : 0.0f, 0.0f, 0.0f, 0.0f);
+    return make_friction_target(rows, vec4(force, 0.0f, 0.0f, 0.0f));
 }
 
 TEST(Math, friction_stays_in_a_round_cone) {
@@ -269,7 +302,7 @@ TEST(Math, friction_stays_in_a_round_cone) {
         const float impulse_1 = samples.number(-5.0f, 5.0f), impulse_2 = samples.number(-5.0f, 5.0f);
         const float v1 = samples.number(-5.0f, 5.0f), v2 = samples.number(-5.0f, 5.0f);
         const vec3 rows = solve_friction_rows(vec3(impulse_1, impulse_2, 0.0f), vec3(2.0f), vec3(v1, v2, 9.0f),
-                                              Pressure{limit, 0.0f});
+                                              friction_of(vec3(2.0f), limit, 0.0f));
         ASSERT_EQ(rows.z, 0.0f) << "a single point does not hold a twist";
         const vec2 held(rows.x, rows.y);
         const vec2 free(impulse_1 - 2.0f * v1, impulse_2 - 2.0f * v2);
@@ -288,8 +321,8 @@ TEST(Math, friction_points_against_the_sliding) {
         const vec2 sliding(std::cos(angle), std::sin(angle));
         vec3 impulse(0.0f);
         for (int pass = 0; pass < 50; ++pass)
-            impulse =
-                solve_friction_rows(impulse, vec3(mass_1, mass_2, 1.0f), vec3(sliding, 0.0f), Pressure{0.3f, 0.2f});
+            impulse = solve_friction_rows(impulse, vec3(mass_1, mass_2, 1.0f), vec3(sliding, 0.0f),
+                                          friction_of(vec3(mass_1, mass_2, 1.0f), 0.3f, 0.2f));
         ASSERT_NEAR(glm::dot(vec2(impulse.x, impulse.y), sliding), -0.3f, 1e-5f);
     }
 }

@@ -86,7 +86,7 @@ TEST(WarmStart, friction_is_carried_as_a_vector) {
         old.tangent_impulse_2 = spread(random);
         Manifold fresh{};
         fresh.normal = next;
-        const Manifold carried = carry_friction(fresh, old);
+        const Manifold carried = carry_over(fresh, old, Parameters{});
         const auto sideways = [](const Manifold& m) {
             const Tangents t = contact_tangents(m.normal);
             return t.t1 * m.tangent_impulse_1 + t.t2 * m.tangent_impulse_2;

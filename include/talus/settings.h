@@ -41,16 +41,16 @@ struct Settings {
     Vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s²
     float dt = 1.0f / 60.0f;          ///< s, the length of one step
     Stabilisation stabilisation = Stabilisation::Soft;
-    std::uint32_t substeps = 8;          ///< soft: sub-steps a step, at least; not used by Baumgarte
-    std::uint32_t max_substeps = 128;    ///< soft: the most that an island gets whose bodies carry heavy loads
-    std::uint32_t iterations = 1;        ///< solver passes: a sub-step (soft) or a step (Baumgarte; set about 10 there)
-    float contact_hertz = 1000.0f;       ///< soft: stiffness of a contact, Hz; capped at an eighth of the sub-step rate
-    float contact_damping_ratio = 5.0f;  ///< soft: damping of a contact
-    float contact_push_speed = 3.0f;     ///< m/s; the fastest that overlap is pushed apart
-    float baumgarte = 0.2f;              ///< β of equation 3.17, 0 to 1
-    float restitution_threshold = 1.0f;  ///< m/s; slower impacts do not bounce
-    float max_linear_speed = 500.0f;     ///< m/s; bodies are held to it
-    float max_angular_speed = 200.0f;    ///< rad/s
+    std::uint32_t substeps = 8;         ///< soft: sub-steps a step, at least; not used by Baumgarte
+    std::uint32_t max_substeps = 128;   ///< soft: the most that an island gets whose bodies carry heavy loads
+    std::uint32_t iterations = 1;       ///< solver passes: a sub-step (soft) or a step (Baumgarte; set about 10 there)
+    float contact_hertz = 1000.0f;      ///< soft: stiffness of a contact, Hz; capped at an eighth of the sub-step rate
+    float contact_damping_ratio = 5.0f; ///< soft: damping of a contact
+    float contact_push_speed = 3.0f;    ///< m/s; the fastest that overlap is pushed apart
+    float baumgarte = 0.2f;             ///< β of equation 3.17, 0 to 1
+    float restitution_threshold = 1.0f; ///< m/s; slower impacts do not bounce
+    float max_linear_speed = 500.0f;    ///< m/s; bodies are held to it
+    float max_angular_speed = 200.0f;   ///< rad/s
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
 };
 

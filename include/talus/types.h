@@ -97,7 +97,7 @@ struct CollisionPair {
 struct ContactPoint {
     Vec3 position;               ///< world space, midway between the two surfaces as the step began (m)
     float separation = 0.0f;     ///< m; negative where the bodies overlap
-    float normal_impulse = 0.0f; ///< N·s, over the step
+    float normal_impulse = 0.0f; ///< N·s, the sum over the step, impacts included
 };
 
 /// All that happens between two touching bodies: up to four points that share a normal (the thesis's ContactManifold).

@@ -74,7 +74,7 @@ void main()
                                               old_axis, max_separation);
     Manifold manifold = make_manifold(pair, g, old_colour, properties[pair.body_a], properties[pair.body_b]);
     if (old_index != k_none)
-        manifold = carry_over(manifold, old);
+        manifold = carry_over(manifold, old, parameters);
     else if (is_placed(pose_a, shapes[pair.body_a]) && is_placed(pose_b, shapes[pair.body_b]))
         manifold = begin_trial(manifold, parameters);
     manifolds[pair_index] = manifold;

@@ -49,7 +49,7 @@ void collide_pair(CpuState& state, uint pair_index) {
     Manifold& manifold = state.manifolds[pair_index];
     manifold = make_manifold(pair, g, old_colour, state.properties[pair.body_a], state.properties[pair.body_b]);
     if (old_index != k_none)
-        manifold = carry_over(manifold, state.old_manifolds[old_index]);
+        manifold = carry_over(manifold, state.old_manifolds[old_index], state.parameters);
     else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b]))
         manifold = begin_trial(manifold, state.parameters);
 

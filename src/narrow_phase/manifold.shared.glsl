@@ -158,7 +158,7 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, uint old_colour, Bod
 
 // Gives a new manifold the friction and the load of the last step's. Friction is carried as a vector: the tangents of
 // two normals that are nearly the same may lie far apart.
-inline Manifold carry_over(Manifold manifold, Manifold old)
+inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)
 {
     Tangents t = contact_tangents(manifold.normal);
     Tangents old_t = contact_tangents(old.normal);
@@ -167,7 +167,7 @@ inline Manifold carry_over(Manifold manifold, Manifold old)
     manifold.tangent_impulse_2 = dot3(sideways, t.t2);
     manifold.twist_impulse = old.twist_impulse;
     manifold.weights = old.weights;
-    manifold.substeps = old.substeps;
+    manifold.substeps = min(old.substeps, p.most_substeps); // which the caller may have lowered
     manifold.idle_steps = old.idle_steps;
     return manifold;
 }

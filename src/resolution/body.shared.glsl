@@ -79,23 +79,41 @@ inline BodyWarmStart no_warm_start(BodyVelocity velocity)
 {
     BodyWarmStart warm;
     warm.linear = vec3(0.0f, 0.0f, 0.0f);
-    warm.reserved_1 = 0.0f;
+    warm.shift_x = 0.0f;
     warm.angular = vec3(0.0f, 0.0f, 0.0f);
-    warm.reserved_2 = 0.0f;
+    warm.shift_y = 0.0f;
     warm.linear_before = velocity.linear;
-    warm.reserved_3 = 0.0f;
+    warm.shift_z = 0.0f;
     warm.angular_before = velocity.angular;
-    warm.reserved_4 = 0.0f;
+    warm.reserved = 0.0f;
     return warm;
 }
 
-// Adds what the last sub-step's contacts have changed.
+// Adds what the last sub-step's contacts have changed. Its movement is over.
 inline BodyWarmStart gather_impulses(BodyWarmStart warm, BodyVelocity velocity)
 {
     precise vec3 linear = warm.linear + (velocity.linear - warm.linear_before);
     precise vec3 angular = warm.angular + (velocity.angular - warm.angular_before);
     warm.linear = linear;
     warm.angular = angular;
+    warm.shift_x = 0.0f;
+    warm.shift_y = 0.0f;
+    warm.shift_z = 0.0f;
+    return warm;
+}
+
+// Of a body that is hit `time` into the sub-step: leaves out what the hit has changed, which is no load to start from. The
+// sub-step will move the body by its velocity after the hit; until then it has had the one before.
+inline BodyWarmStart take_hit(BodyWarmStart warm, BodyVelocity before, BodyVelocity after, float time)
+{
+    precise vec3 linear = warm.linear_before + (after.linear - before.linear);
+    precise vec3 angular = warm.angular_before + (after.angular - before.angular);
+    precise vec3 shift = vec3(warm.shift_x, warm.shift_y, warm.shift_z) + (before.linear - after.linear) * time;
+    warm.linear_before = linear;
+    warm.angular_before = angular;
+    warm.shift_x = shift.x;
+    warm.shift_y = shift.y;
+    warm.shift_z = shift.z;
     return warm;
 }
 
@@ -148,9 +166,10 @@ inline BodyVelocity frozen_velocity()
     return velocity;
 }
 
-inline BodyDelta integrate_position(BodyDelta delta, BodyVelocity velocity, float h)
+inline BodyDelta integrate_position(BodyDelta delta, BodyWarmStart warm, BodyVelocity velocity, float h)
 {
-    delta.position = add_scaled(delta.position, velocity.linear, h);
+    precise vec3 shifted = delta.position + vec3(warm.shift_x, warm.shift_y, warm.shift_z);
+    delta.position = add_scaled(shifted, velocity.linear, h);
     delta.rotation = integrate_rotation(delta.rotation, velocity.angular, h);
     return delta;
 }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a sub-step does to one body. Before this file the kernel defines load_velocity and store_velocity, as for
-// contact_passes.glsl, and declares Inertias, Deltas and Counters. The CPU's counterpart is body_passes.h.
+// contact_passes.glsl, and declares Inertias, Deltas, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
 layout(std430) buffer Poses { BodyPose poses[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) readonly buffer Properties { BodyProperties properties[]; };
 layout(std430) readonly buffer Loads { BodyLoad loads[]; };
-layout(std430) buffer WarmStarts { BodyWarmStart warm_starts[]; };
 
 // Ends the sub-step before `substep` with its movement, and begins `substep` with its forces: between the two nothing
 // happens. A body whose sub-steps are all done is left alone.
@@ -20,14 +19,15 @@ void integrate_body(uint body, uint substep)
     float h = substep_length(inertia.substeps, parameters);
     BodyVelocity velocity = load_velocity(body);
     BodyDelta delta = deltas[body]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
+    BodyWarmStart warm = warm_starts[body];
     if (substep > 0u) {
-        delta = integrate_position(delta, velocity, h);
+        delta = integrate_position(delta, warm, velocity, h);
         deltas[body] = delta;
     }
     if (substep == inertia.substeps) return;
 
     vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
-    BodyWarmStart warm = gather_impulses(warm_starts[body], velocity);
+    warm = gather_impulses(warm, velocity);
     velocity = integrate_velocity(velocity, warm, rotation, properties[body], inertia, loads[body],
                                   is_movable(shapes[body]), h, parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {

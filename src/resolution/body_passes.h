@@ -18,7 +18,7 @@ inline void integrate_body(CpuState& state, uint body, uint substep) {
     const float h = substep_length(inertia.substeps, state.parameters);
     BodyVelocity velocity = state.velocities[body];
     BodyDelta& delta = state.deltas[body];
-    if (substep > 0) delta = integrate_position(delta, velocity, h);
+    if (substep > 0) delta = integrate_position(delta, state.warm_starts[body], velocity, h);
     if (substep == inertia.substeps) return;
 
     const vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);

@@ -78,6 +78,7 @@ struct ManifoldRows {
     vec3 friction_mass; // t1, t2, twist
     vec4 lever;         // m, of each point from their middle
     float friction;
+    float restitution;
     BodyInertia inertia_a;
     BodyInertia inertia_b;
 };
@@ -86,10 +87,20 @@ struct ManifoldRows {
 struct ManifoldImpulses {
     vec4 normal;   // N s
     vec4 total;    // N s, the sum over all sub-steps
-    vec4 approach; // m/s along the normal, the fastest that an impulse met; negative when closing
     vec3 friction; // N s along t1 and t2, N m s about the normal
     vec3 moment;   // N m s, see Slip
 };
+
+inline ManifoldRows couple_points(ManifoldRows rows, float inverse_masses)
+{
+    rows.coupling_0 = vec3(row_coupling(rows.point_0, rows.point_1, inverse_masses),
+                           row_coupling(rows.point_0, rows.point_2, inverse_masses),
+                           row_coupling(rows.point_0, rows.point_3, inverse_masses));
+    rows.coupling_1 = vec3(row_coupling(rows.point_1, rows.point_2, inverse_masses),
+                           row_coupling(rows.point_1, rows.point_3, inverse_masses),
+                           row_coupling(rows.point_2, rows.point_3, inverse_masses));
+    return rows;
+}
 
 inline ManifoldRows make_rows(ContactConstraint c, ContactConstraintPoint p0, ContactConstraintPoint p1,
                               ContactConstraintPoint p2, ContactConstraintPoint p3, BodyInertia inertia_a,
@@ -108,19 +119,14 @@ inline ManifoldRows make_rows(ContactConstraint c, ContactConstraintPoint p0, Co
     rows.tangent_2 = make_row(t.t2, c.centre_a, c.centre_b, inertia_a, inertia_b);
     rows.twist_a = multiply_inertia(inertia_a, c.normal);
     rows.twist_b = multiply_inertia(inertia_b, c.normal);
-    rows.coupling_0 = vec3(row_coupling(rows.point_0, rows.point_1, c.inverse_masses),
-                           row_coupling(rows.point_0, rows.point_2, c.inverse_masses),
-                           row_coupling(rows.point_0, rows.point_3, c.inverse_masses));
-    rows.coupling_1 = vec3(row_coupling(rows.point_1, rows.point_2, c.inverse_masses),
-                           row_coupling(rows.point_1, rows.point_3, c.inverse_masses),
-                           row_coupling(rows.point_2, rows.point_3, c.inverse_masses));
     rows.normal_mass = vec4(p0.normal_mass, p1.normal_mass, p2.normal_mass, p3.normal_mass);
     rows.friction_mass = vec3(c.tangent_mass_1, c.tangent_mass_2, c.twist_mass);
     rows.lever = vec4(p0.lever, p1.lever, p2.lever, p3.lever);
     rows.friction = c.friction;
+    rows.restitution = c.restitution;
     rows.inertia_a = inertia_a;
     rows.inertia_b = inertia_b;
-    return rows;
+    return couple_points(rows, c.inverse_masses);
 }
 
 inline ManifoldImpulses make_impulses(ContactConstraint c, ContactConstraintPoint p0, ContactConstraintPoint p1,
@@ -129,7 +135,6 @@ inline ManifoldImpulses make_impulses(ContactConstraint c, ContactConstraintPoin
     ManifoldImpulses impulses;
     impulses.normal = vec4(p0.normal_impulse, p1.normal_impulse, p2.normal_impulse, p3.normal_impulse);
     impulses.total = vec4(p0.total_impulse, p1.total_impulse, p2.total_impulse, p3.total_impulse);
-    impulses.approach = vec4(p0.approach_speed, p1.approach_speed, p2.approach_speed, p3.approach_speed);
     impulses.friction = vec3(c.tangent_impulse_1, c.tangent_impulse_2, c.twist_impulse);
     impulses.moment = c.moment;
     return impulses;
@@ -233,6 +238,13 @@ inline Slip measure_slip(vec3 gap, uint traits, BodyDelta a, BodyDelta b)
     return slip;
 }
 
+inline Slip slip_after(Slip slip, VelocityPair v, float time)
+{
+    precise vec3 apart = slip.apart + (v.b.linear - v.a.linear) * time;
+    slip.apart = apart;
+    return slip;
+}
+
 // v_b - v_a without the rows' arms.
 inline vec3 relative_velocity(VelocityPair v, Slip slip)
 {
@@ -250,14 +262,22 @@ struct NormalTarget {
     vec4 mass;
     vec4 offset;
     vec4 lower;
+    vec4 hit_speed; // m/s: a point that closes faster has been hit
 };
+
+// The speed at which a separation may close within the sub-step.
+inline float closing_speed(float separation, float inv_h)
+{
+    precise float speed = max(separation, 0.0f) * inv_h;
+    return speed;
+}
 
 // One point's share: x the mass, y the offset. The bias velocity b is that of equation 3.7; see solver.md.
 inline vec2 point_target(float separation, float normal_mass, float impulse, bool use_bias, Softness soft, float inv_h,
                          Parameters p)
 {
     bool biased = separation <= 0.0f && use_bias;
-    precise float gap = separation * inv_h; // may close within the sub-step, not more
+    float gap = closing_speed(separation, inv_h);
     precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -p.contact_push_speed);
     float bias = separation > 0.0f ? gap : (use_bias ? push : 0.0f);
     precise float mass = normal_mass * (biased ? soft.mass_scale : 1.0f);
@@ -265,9 +285,28 @@ inline vec2 point_target(float separation, float normal_mass, float impulse, boo
     return vec2(mass, offset);
 }
 
-inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 impulse, bool use_bias, Softness soft,
-                                       float inv_h, Parameters p)
+inline vec4 closing_speeds(vec4 separation, float inv_h)
 {
+    return vec4(closing_speed(separation.x, inv_h), closing_speed(separation.y, inv_h),
+                closing_speed(separation.z, inv_h), closing_speed(separation.w, inv_h));
+}
+
+const float k_never = 1.0e30f; // m/s, or s
+
+// A point of bodies that bounce is hit when it closes faster than this: so that it touches within the sub-step. What
+// overlaps by more than half of that has been there for longer, and is pushed apart.
+inline float hit_speed(float separation, float normal_mass, float restitution, float inv_h, Parameters p)
+{
+    precise float old = -0.5f * separation * inv_h;
+    float speed = max(max(closing_speed(separation, inv_h), old), p.restitution_threshold);
+    return normal_mass > 0.0f && restitution > 0.0f ? speed : k_never;
+}
+
+inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 impulse, bool use_bias,
+                                       Substep substep, Parameters p)
+{
+    Softness soft = substep.soft;
+    float inv_h = substep.inv_h;
     vec2 x = point_target(separation.x, rows.normal_mass.x, impulse.x, use_bias, soft, inv_h, p);
     vec2 y = point_target(separation.y, rows.normal_mass.y, impulse.y, use_bias, soft, inv_h, p);
     vec2 z = point_target(separation.z, rows.normal_mass.z, impulse.z, use_bias, soft, inv_h, p);
@@ -276,6 +315,10 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
     target.mass = vec4(x.x, y.x, z.x, w.x);
     target.offset = vec4(x.y, y.y, z.y, w.y);
     target.lower = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    target.hit_speed = vec4(hit_speed(separation.x, rows.normal_mass.x, rows.restitution, inv_h, p),
+                            hit_speed(separation.y, rows.normal_mass.y, rows.restitution, inv_h, p),
+                            hit_speed(separation.z, rows.normal_mass.z, rows.restitution, inv_h, p),
+                            hit_speed(separation.w, rows.normal_mass.w, rows.restitution, inv_h, p));
     return target;
 }
 
@@ -289,31 +332,6 @@ inline float least_relaxed(ContactConstraintPoint point, vec3 n, float impulse, 
     precise float push = -soft.bias_rate * separation;
     precise float least = impulse - total;
     return push > k_fast_push ? min(least, 0.0f) : 0.0f;
-}
-
-// Restitution, once at the end of the step: a point that was hit faster than the threshold leaves with e times the
-// speed of its approach.
-inline vec2 bounce_target(float approach_speed, float normal_mass, float impulse, float restitution, Parameters p)
-{
-    bool bounces = restitution > 0.0f && approach_speed < -p.restitution_threshold;
-    float mass = bounces ? normal_mass : 0.0f;
-    precise float offset = impulse - mass * (restitution * approach_speed);
-    return vec2(mass, offset);
-}
-
-inline NormalTarget make_bounce_target(ManifoldRows rows, ManifoldImpulses impulses, float restitution, Parameters p)
-{
-    vec4 approach_speed = impulses.approach;
-    vec4 impulse = impulses.normal;
-    vec2 x = bounce_target(approach_speed.x, rows.normal_mass.x, impulse.x, restitution, p);
-    vec2 y = bounce_target(approach_speed.y, rows.normal_mass.y, impulse.y, restitution, p);
-    vec2 z = bounce_target(approach_speed.z, rows.normal_mass.z, impulse.z, restitution, p);
-    vec2 w = bounce_target(approach_speed.w, rows.normal_mass.w, impulse.w, restitution, p);
-    NormalTarget target;
-    target.mass = vec4(x.x, y.x, z.x, w.x);
-    target.offset = vec4(x.y, y.y, z.y, w.y);
-    target.lower = min4(impulse, vec4(0.0f, 0.0f, 0.0f, 0.0f));
-    return target;
 }
 
 // The friction rows: impulses stay inside an ellipsoid, with the force limit as its radius along the tangents and the
@@ -357,6 +375,7 @@ struct PassTarget {
     NormalTarget normal;
     FrictionTarget friction;
     Slip slip;
+    float half_h; // s, half of the movement that follows the pass
     float old_share; // 1 where the impulses that a pass starts from are part of the step's sum already
 };
 
@@ -364,67 +383,94 @@ struct PassTarget {
 struct ManifoldState {
     VelocityPair velocities;
     ManifoldImpulses impulses;
+    bool is_hit;
 };
 
 // ---- normal rows ----
 
-inline vec4 faster_where_hit(vec4 fastest, vec4 approach, vec4 impulse)
+// J V of the normal rows.
+inline vec4 normal_velocities(VelocityPair v, ManifoldRows rows, Slip slip)
 {
-    return vec4(impulse.x > 0.0f ? min(fastest.x, approach.x) : fastest.x,
-                impulse.y > 0.0f ? min(fastest.y, approach.y) : fastest.y,
-                impulse.z > 0.0f ? min(fastest.z, approach.z) : fastest.z,
-                impulse.w > 0.0f ? min(fastest.w, approach.w) : fastest.w);
+    vec3 w_a = v.a.angular;
+    vec3 w_b = v.b.angular;
+    float linear = dot3(relative_velocity(v, slip), rows.normal);
+    return vec4(row_velocity(rows.point_0, linear, w_a, w_b), row_velocity(rows.point_1, linear, w_a, w_b),
+                row_velocity(rows.point_2, linear, w_a, w_b), row_velocity(rows.point_3, linear, w_a, w_b));
 }
 
-// Faster than this, a manifold is far from solved (m/s): it has been hit, or starts from the impulses of a hit.
-const float k_hit_speed = 0.25f;
+// A point that closes fast is no hit where the load alone could have made it fast: a light body under a heavy one is
+// thrown about within a sub-step.
+inline bool is_hit(float velocity, float mass, float speed, float load)
+{
+    precise float stopping = -velocity * mass;
+    return -velocity > speed && stopping > load;
+}
+
+inline bool is_any_hit(vec4 velocity, vec4 mass, vec4 speed, float load)
+{
+    return is_hit(velocity.x, mass.x, speed.x, load) || is_hit(velocity.y, mass.y, speed.y, load) ||
+           is_hit(velocity.z, mass.z, speed.z, load) || is_hit(velocity.w, mass.w, speed.w, load);
+}
+
+struct NormalSweep {
+    vec4 velocity; // J V, but for what each row's own impulse has changed last
+    vec4 impulse;
+};
 
 // The normal rows one after the other (equation 3.14, accumulated and clamped). What each impulse does to the other rows
-// comes from the coupling, so that the bodies' velocities are touched once. A hit is solved to the end here and now: one
-// sweep alone would leave a box that falls flat turning.
+// comes from the coupling, so that the bodies' velocities are touched once.
+inline NormalSweep sweep_normals(NormalSweep s, ManifoldRows rows, NormalTarget target)
+{
+    vec4 old = s.impulse;
+    vec4 velocity = s.velocity;
+    precise float velocity_0 = velocity.x;
+    precise float velocity_1 = velocity.y;
+    precise float velocity_2 = velocity.z;
+    precise float velocity_3 = velocity.w;
+    precise float impulse_0 = max(target.offset.x - target.mass.x * velocity_0, target.lower.x);
+    precise float change_0 = impulse_0 - old.x;
+    velocity_1 = velocity_1 + rows.coupling_0.x * change_0;
+    velocity_2 = velocity_2 + rows.coupling_0.y * change_0;
+    velocity_3 = velocity_3 + rows.coupling_0.z * change_0;
+    precise float impulse_1 = max(target.offset.y - target.mass.y * velocity_1, target.lower.y);
+    precise float change_1 = impulse_1 - old.y;
+    velocity_0 = velocity_0 + rows.coupling_0.x * change_1;
+    velocity_2 = velocity_2 + rows.coupling_1.x * change_1;
+    velocity_3 = velocity_3 + rows.coupling_1.y * change_1;
+    precise float impulse_2 = max(target.offset.z - target.mass.z * velocity_2, target.lower.z);
+    precise float change_2 = impulse_2 - old.z;
+    velocity_0 = velocity_0 + rows.coupling_0.y * change_2;
+    velocity_1 = velocity_1 + rows.coupling_1.x * change_2;
+    velocity_3 = velocity_3 + rows.coupling_1.z * change_2;
+    precise float impulse_3 = max(target.offset.w - target.mass.w * velocity_3, target.lower.w);
+    precise float change_3 = impulse_3 - old.w;
+    velocity_0 = velocity_0 + rows.coupling_0.z * change_3;
+    velocity_1 = velocity_1 + rows.coupling_1.y * change_3;
+    velocity_2 = velocity_2 + rows.coupling_1.z * change_3;
+    NormalSweep next;
+    next.velocity = vec4(velocity_0, velocity_1, velocity_2, velocity_3);
+    next.impulse = vec4(impulse_0, impulse_1, impulse_2, impulse_3);
+    return next;
+}
+
+// A manifold this fast (m/s) is far from solved, and is solved to the end at once: one sweep alone would leave a box that
+// falls flat turning.
+const float k_fast = 0.25f;
+const uint k_sweeps_of_fast = 8u;
+
 inline ManifoldState solve_normals(ManifoldState s, ManifoldRows rows, NormalTarget target, Slip slip)
 {
-    vec3 w_a = s.velocities.a.angular;
-    vec3 w_b = s.velocities.b.angular;
-    float linear = dot3(relative_velocity(s.velocities, slip), rows.normal);
-    vec4 old = s.impulses.normal;
-    // Without what the row's own impulse changes.
-    precise float velocity_0 = row_velocity(rows.point_0, linear, w_a, w_b);
-    precise float velocity_1 = row_velocity(rows.point_1, linear, w_a, w_b);
-    precise float velocity_2 = row_velocity(rows.point_2, linear, w_a, w_b);
-    precise float velocity_3 = row_velocity(rows.point_3, linear, w_a, w_b);
-    vec4 approach = vec4(velocity_0, velocity_1, velocity_2, velocity_3);
-    float fastest = max(max(abs(velocity_0), abs(velocity_1)), max(abs(velocity_2), abs(velocity_3)));
-    uint sweeps = fastest > k_hit_speed ? 8u : 1u;
-
-    vec4 impulse = old;
-    for (uint sweep = 0u; sweep < sweeps; sweep += 1u) {
-        precise float impulse_0 = max(target.offset.x - target.mass.x * velocity_0, target.lower.x);
-        precise float change_0 = impulse_0 - impulse.x;
-        velocity_1 = velocity_1 + rows.coupling_0.x * change_0;
-        velocity_2 = velocity_2 + rows.coupling_0.y * change_0;
-        velocity_3 = velocity_3 + rows.coupling_0.z * change_0;
-        precise float impulse_1 = max(target.offset.y - target.mass.y * velocity_1, target.lower.y);
-        precise float change_1 = impulse_1 - impulse.y;
-        velocity_0 = velocity_0 + rows.coupling_0.x * change_1;
-        velocity_2 = velocity_2 + rows.coupling_1.x * change_1;
-        velocity_3 = velocity_3 + rows.coupling_1.y * change_1;
-        precise float impulse_2 = max(target.offset.z - target.mass.z * velocity_2, target.lower.z);
-        precise float change_2 = impulse_2 - impulse.z;
-        velocity_0 = velocity_0 + rows.coupling_0.y * change_2;
-        velocity_1 = velocity_1 + rows.coupling_1.x * change_2;
-        velocity_3 = velocity_3 + rows.coupling_1.z * change_2;
-        precise float impulse_3 = max(target.offset.w - target.mass.w * velocity_3, target.lower.w);
-        precise float change_3 = impulse_3 - impulse.w;
-        velocity_0 = velocity_0 + rows.coupling_0.z * change_3;
-        velocity_1 = velocity_1 + rows.coupling_1.y * change_3;
-        velocity_2 = velocity_2 + rows.coupling_1.z * change_3;
-        impulse = vec4(impulse_0, impulse_1, impulse_2, impulse_3);
-    }
-
-    precise vec4 change = impulse - old;
-    s.impulses.normal = impulse;
-    s.impulses.approach = faster_where_hit(s.impulses.approach, approach, impulse);
+    NormalSweep sweep;
+    sweep.velocity = normal_velocities(s.velocities, rows, slip);
+    sweep.impulse = s.impulses.normal;
+    s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.hit_speed, sum4(sweep.impulse));
+    vec4 v = sweep.velocity;
+    float fastest = max(max(abs(v.x), abs(v.y)), max(abs(v.z), abs(v.w)));
+    uint sweeps = fastest > k_fast ? k_sweeps_of_fast : 1u;
+    for (uint i = 0u; i < sweeps; i += 1u)
+        sweep = sweep_normals(sweep, rows, target);
+    precise vec4 change = sweep.impulse - s.impulses.normal;
+    s.impulses.normal = sweep.impulse;
     s.velocities = apply_normals(s.velocities, rows, change);
     return s;
 }
@@ -488,24 +534,12 @@ inline ManifoldState turn_by_slip(ManifoldState s, ManifoldRows rows, Slip slip)
 
 inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
 {
-    s = solve_friction(s, rows, target.friction, target.slip);
+    Slip slip = slip_after(target.slip, s.velocities, target.half_h);
     vec4 old = s.impulses.normal;
-    s = solve_normals(s, rows, target.normal, target.slip);
-    precise vec4 total = s.impulses.total + (s.impulses.normal - old * target.old_share);
-    s.impulses.total = total;
-    return turn_by_slip(s, rows, target.slip);
-}
-
-// Without friction; the approach stays that of the hit.
-inline ManifoldState bounce_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
-{
-    vec4 approach = s.impulses.approach;
-    vec4 old = s.impulses.normal;
-    s = solve_normals(s, rows, target.normal, target.slip);
-    precise vec4 total = s.impulses.total + (s.impulses.normal - old);
-    s.impulses.total = total;
-    s.impulses.approach = approach;
-    return turn_by_slip(s, rows, target.slip);
+    ManifoldState solved = solve_normals(solve_friction(s, rows, target.friction, slip), rows, target.normal, slip);
+    precise vec4 total = solved.impulses.total + (solved.impulses.normal - old * target.old_share);
+    solved.impulses.total = total;
+    return turn_by_slip(solved, rows, slip);
 }
 
 // The accumulated impulses again, to start from.
@@ -593,7 +627,7 @@ inline ContactConstraintPoint prepare_point(ManifoldPoint old, ContactConstraint
     point.lever = length3(arm);
     point.normal_impulse = impulse;
     point.total_impulse = 0.0f;
-    point.approach_speed = 0.0f;
+    point.hit_impulse = 0.0f;
     return point;
 }
 
@@ -608,7 +642,7 @@ inline ContactConstraintPoint no_point()
     point.lever = 0.0f;
     point.normal_impulse = 0.0f;
     point.total_impulse = 0.0f;
-    point.approach_speed = 0.0f;
+    point.hit_impulse = 0.0f;
     return point;
 }
 
@@ -642,9 +676,12 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 nor
     bool idle = on_trial || 2u * wanted <= manifold.substeps;
     manifold.idle_steps = idle ? manifold.idle_steps + 1u : 0u;
     uint patience = on_trial ? k_trial + k_trial_steps : k_patience;
-    if (wanted > manifold.substeps || manifold.idle_steps >= patience) {
+    if (wanted > manifold.substeps) {
         manifold.substeps = wanted;
         manifold.idle_steps = 0u;
+    } else if (manifold.idle_steps >= patience) {
+        manifold.substeps = max(wanted, manifold.substeps / 2u);
+        manifold.idle_steps = manifold.substeps > wanted ? patience - k_halving_steps : 0u;
     }
     manifold.weights = mean;
     return manifold;

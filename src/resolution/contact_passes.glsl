@@ -5,25 +5,25 @@
 //   Substep substep_of(uint substeps, bool against_static)
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
-// Reads: Inertias, Deltas. Reads and writes: Constraints, ConstraintPoints (their impulses).
+// Reads: Inertias, Deltas. Reads and writes: Constraints, ConstraintPoints (their impulses), WarmStarts.
 
 layout(std430) buffer Constraints { ContactConstraint constraints[]; };
 layout(std430) buffer ConstraintPoints { ContactConstraintPoint constraint_points[]; };
 layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
 layout(std430) coherent buffer Deltas { BodyDelta deltas[]; };
+layout(std430) coherent buffer WarmStarts { BodyWarmStart warm_starts[]; };
 
 const uint k_warm_start = 0u;
 const uint k_solve = 1u;       // with bias
 const uint k_solve_again = 2u; // further iterations in the same sub-step
 const uint k_relax = 3u;       // without bias
-const uint k_restitution = 4u;
 
 // The constraint in hand.
 uint body_a;
 uint body_b;
 uint traits;
 uint substeps;
-vec3 gap;
+vec3 gap_at_start;
 ManifoldRows rows;
 ManifoldImpulses impulses;
 
@@ -40,16 +40,15 @@ void take_constraint(uint index)
     body_b = c.body_b;
     traits = c.traits;
     substeps = c.substeps;
-    gap = c.gap;
+    gap_at_start = c.gap;
     rows = make_rows(c, p0, p1, p2, p3, inertia_a, inertia_b);
     impulses = make_impulses(c, p0, p1, p2, p3);
 }
 
-void put_back_point(uint point, float impulse, float total, float approach)
+void put_back_point(uint point, float impulse, float total)
 {
     constraint_points[point].normal_impulse = impulse;
     constraint_points[point].total_impulse = total;
-    constraint_points[point].approach_speed = approach;
 }
 
 void put_back_impulses(uint index)
@@ -58,15 +57,20 @@ void put_back_impulses(uint index)
     constraints[index].tangent_impulse_2 = impulses.friction.y;
     constraints[index].twist_impulse = impulses.friction.z;
     constraints[index].moment = impulses.moment;
-    put_back_point(4u * index, impulses.normal.x, impulses.total.x, impulses.approach.x);
-    put_back_point(4u * index + 1u, impulses.normal.y, impulses.total.y, impulses.approach.y);
-    put_back_point(4u * index + 2u, impulses.normal.z, impulses.total.z, impulses.approach.z);
-    put_back_point(4u * index + 3u, impulses.normal.w, impulses.total.w, impulses.approach.w);
+    put_back_point(4u * index, impulses.normal.x, impulses.total.x);
+    put_back_point(4u * index + 1u, impulses.normal.y, impulses.total.y);
+    put_back_point(4u * index + 2u, impulses.normal.z, impulses.total.z);
+    put_back_point(4u * index + 3u, impulses.normal.w, impulses.total.w);
 }
 
-float separation_of(uint point, Approach approach)
+vec4 separations(uint index, BodyDelta delta_a, BodyDelta delta_b)
 {
-    return current_separation(constraint_points[point], approach);
+    Approach approach = measure_approach(rows.normal, traits, delta_a, delta_b);
+    uint point = 4u * index;
+    return vec4(current_separation(constraint_points[point], approach),
+                current_separation(constraint_points[point + 1u], approach),
+                current_separation(constraint_points[point + 2u], approach),
+                current_separation(constraint_points[point + 3u], approach));
 }
 
 float least_of(uint point, float impulse, float total, Softness soft)
@@ -79,21 +83,16 @@ PassTarget target_of_pass(uint pass, uint index)
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == k_solve ? 0.0 : 1.0;
-    uint point = 4u * index;
     BodyDelta delta_a = deltas[body_a]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
     BodyDelta delta_b = deltas[body_b];
-    target.slip = measure_slip(gap, traits, delta_a, delta_b);
-    if (pass == k_restitution) {
-        target.normal = make_bounce_target(rows, impulses, constraints[index].restitution, parameters);
-        return target;
-    }
-    Approach approach = measure_approach(rows.normal, traits, delta_a, delta_b);
-    vec4 separation = vec4(separation_of(point, approach), separation_of(point + 1u, approach),
-                           separation_of(point + 2u, approach), separation_of(point + 3u, approach));
+    target.slip = measure_slip(gap_at_start, traits, delta_a, delta_b);
     Substep substep = substep_of(substeps, is_against_static(traits));
-    target.normal = make_normal_target(separation, rows, impulses.normal, pass != k_relax, substep.soft, substep.inv_h,
-                                       parameters);
+    bool moves = pass != k_relax && is_against_static(traits);
+    target.half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
+    target.normal = make_normal_target(separations(index, delta_a, delta_b), rows, impulses.normal, pass != k_relax,
+                                       substep, parameters);
     if (pass == k_relax) {
+        uint point = 4u * index;
         vec4 impulse = impulses.normal;
         vec4 total = impulses.total;
         target.normal.lower = vec4(least_of(point, impulse.x, total.x, substep.soft),
@@ -104,19 +103,51 @@ PassTarget target_of_pass(uint pass, uint index)
     return target;
 }
 
-// One pass over the constraint in hand.
-void pass_over_constraint(uint pass, PassTarget target)
+ManifoldState begin_pass()
 {
     ManifoldState s;
     s.velocities.a = load_velocity(body_a);
     s.velocities.b = load_velocity(body_b);
     s.impulses = impulses;
+    s.is_hit = false;
+    return s;
+}
+
+void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
+{
+    if (before.inverse_mass == 0.0) return;
+    BodyWarmStart warm = warm_starts[body];
+    warm_starts[body] = take_hit(warm, before, after, time);
+    memoryBarrierBuffer(); // the body's own invocation reads it
+}
+
+// Instead of the pass that has found the hit, whose result was not put back.
+ManifoldState pass_over_hit(uint index, float old_share)
+{
+    BodyDelta delta_a = deltas[body_a];
+    BodyDelta delta_b = deltas[body_b];
+    Slip slip = measure_slip(gap_at_start, traits, delta_a, delta_b);
+    Substep substep = substep_of(substeps, is_against_static(traits));
+    vec4 closing = closing_speeds(separations(index, delta_a, delta_b), substep.inv_h);
+    ManifoldState before = begin_pass();
+    Hit hit = solve_hit(before.velocities, rows, slip, closing, substep.inv_h, parameters);
+    put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
+    put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
+    for (uint i = 0u; i < 4u; ++i)
+        constraint_points[4u * index + i].hit_impulse += hit.impulse[i];
+    return end_hit(before, hit, old_share);
+}
+
+// One pass over the constraint in hand, whose index it is.
+void pass_over_constraint(uint pass, uint index, PassTarget target)
+{
+    ManifoldState s = begin_pass();
     if (pass == k_warm_start)
         s.velocities = warm_start_manifold(s.velocities, rows, impulses);
-    else if (pass == k_restitution)
-        s = bounce_manifold(s, rows, target);
     else
         s = solve_manifold(s, rows, target);
+    if (s.is_hit && pass == k_relax) return; // the next step's
+    if (s.is_hit) s = pass_over_hit(index, target.old_share);
     impulses = s.impulses;
     // A body that contacts cannot push may be in many constraints of one colour: nobody writes it.
     if (s.velocities.a.inverse_mass > 0.0) store_velocity(body_a, s.velocities.a);

@@ -15,6 +15,7 @@ layout(local_size_x = 64) in;
 layout(std430) buffer Velocities { BodyVelocity velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
 layout(std430) buffer Deltas { BodyDelta deltas[]; };
+layout(std430) buffer WarmStarts { BodyWarmStart warm_starts[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
 BodyVelocity load_velocity(uint body) { return velocities[body]; }

@@ -18,8 +18,7 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
         if (manifold.point_count > 0) {
             ++state.counters[k_counter_manifold_count];
             state.counters[k_counter_contact_count] += manifold.point_count;
-            state.counters[k_counter_substep_demand] =
-                max(state.counters[k_counter_substep_demand], manifold.substeps);
+            state.counters[k_counter_substep_demand] = max(state.counters[k_counter_substep_demand], manifold.substeps);
             colour = manifold.colour;
             if (colour < k_max_colours) {
                 use_colour(manifold.body_a, colour);

@@ -11,9 +11,8 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         const BodyPose& pose = state.poses[body];
         const bool movable = is_movable(state.shapes[body]) && (pose.flags & k_body_frozen) == 0;
         const uint substeps = launch.args[0] == 1 ? state.substeps[body] : state.counters[k_counter_substep_demand];
-        state.inertias[body] =
-            world_inertia(pose.rotation, state.properties[body].inverse_inertia, movable,
-                          is_sphere(state.shapes[body]), substeps);
+        state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia, movable,
+                                             is_sphere(state.shapes[body]), substeps);
         state.deltas[body] = no_delta();
         state.warm_starts[body] = no_warm_start(state.velocities[body]);
     });

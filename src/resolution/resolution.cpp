@@ -17,8 +17,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_colours, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
     device.run({.kernel = assign_colours, .items = 1});
-    if (plan.by_island)
-        device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
+    if (plan.by_island) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
     sort_by_key(device, {.keys = BufferId::ManifoldKeys,
                          .values = BufferId::ManifoldOrder,
                          .keys_swap = BufferId::SortedManifoldKeys,
@@ -49,7 +48,7 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 
 void solve(Device& device, const StepPlan& plan) {
     if (plan.in_groups) {
-        device.run({.kernel = solve_islands, .slot = k_dispatch_islands, .args = {plan.restitution_passes}});
+        device.run({.kernel = solve_islands, .slot = k_dispatch_islands});
         return;
     }
     for (uint substep = 0; substep < plan.substep_capacity; ++substep) {
@@ -61,8 +60,6 @@ void solve(Device& device, const StepPlan& plan) {
     }
     device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {plan.substep_capacity}});
     if (plan.relax) pass_over_contacts(device, plan, ContactPass::Relax);
-    for (uint i = 0; i < plan.restitution_passes; ++i)
-        pass_over_contacts(device, plan, ContactPass::Restitution);
 }
 
 void store_impulses(Device& device) {

@@ -14,7 +14,7 @@ struct StepPlan;
 void constraint_graph(Device&, const StepPlan&);
 /// Effective masses and the solver's records, in the order of colours.
 void prepare(Device&, const StepPlan&);
-/// All sub-steps and the restitution.
+/// All sub-steps.
 void solve(Device&, const StepPlan&);
 /// Impulses and colours go back to the manifolds, for the next step's warm start.
 void store_impulses(Device&);

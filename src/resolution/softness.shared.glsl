@@ -29,6 +29,7 @@ struct Substep {
     Softness soft;
 };
 
+
 inline float substep_length(uint substeps, Parameters p)
 {
     precise float h = p.dt * reciprocal(float(substeps));
@@ -59,9 +60,10 @@ inline Substep make_substep(uint substeps, bool against_static, Parameters p)
 
 // ---- how many ----
 
-// Sub-steps for each weight of a body that presses on it or on the body below: a tower then sinks by the same 7 mm
-// whatever its height, and one of a hundred boxes does not buckle.
-const float k_substeps_a_weight = 0.65f;
+// A load of N weights is that of a tower of N boxes. One of 1 m boxes buckles beyond N = 6 n^(2/3) at n sub-steps
+// (solver.md), so that n follows N^1.5; the linear part keeps short towers from sinking by more than a centimetre or two.
+const float k_substeps_against_sag = 0.5f;
+const float k_substeps_against_buckling = 0.095f;
 
 // More sub-steps are had at once, fewer only after so many steps in a row in which half would have done: a change of
 // stiffness shakes what stands, which changes the load, and without patience a tower never came to rest.
@@ -71,6 +73,7 @@ const float k_newest_weight = 0.125f; // share of the newest step in the mean lo
 // shaken while the load builds up.
 const uint k_trial = 1000u;      // Manifold::idle_steps counts up from here in a trial
 const uint k_trial_steps = 32u;
+const uint k_halving_steps = 8u; // to half of that at a time
 
 // The numbers in use are apart by half or a third: least, 1.5 least, 2 least, 3 least, 4 least, ...
 inline uint substep_level(uint level, uint least)
@@ -82,7 +85,9 @@ inline uint substep_level(uint level, uint least)
 // The lowest number that is enough for a load.
 inline uint wanted_substeps(float weights, Parameters p)
 {
-    precise float wanted = k_substeps_a_weight * weights;
+    precise float against_buckling = k_substeps_against_buckling * weights * square_root(weights);
+    precise float against_sag = k_substeps_against_sag * weights;
+    float wanted = max(against_sag, against_buckling);
     for (uint level = 0u; level < 16u; level += 1u) {
         uint substeps = substep_level(level, p.least_substeps);
         if (substeps >= p.most_substeps) return p.most_substeps;

@@ -3,7 +3,7 @@
 // args.x: the colour; args.y: the pass, k_warm_start, k_solve, ...; args.z: the sub-step. No two
 // manifolds of a colour share a body that they could push. The overflow set is solved one after the other by a single invocation.
 // Reads: ColourOffsets, Constraints, Inertias, Deltas.
-// Writes: Velocities, Constraints and ConstraintPoints (impulses).
+// Writes: Velocities, WarmStarts, Constraints and ConstraintPoints (impulses).
 // Needs: a barrier after the colour before.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -11,6 +11,7 @@
 #include "resolution/tangents.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/contact.shared.glsl"
+#include "resolution/hit.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -37,7 +38,7 @@ void main()
         take_constraint(index);
         PassTarget target;
         if (args.y != k_warm_start) target = target_of_pass(args.y, index);
-        pass_over_constraint(args.y, target);
+        pass_over_constraint(args.y, index, target);
         if (args.y != k_warm_start) put_back_impulses(index);
     }
 }

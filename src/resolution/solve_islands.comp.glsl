@@ -4,7 +4,6 @@
 // islands do not touch each other. There is a group for each body slot; those that lead no island end at once.
 // An invocation keeps the manifold that it has in hand from pass to pass. Where there are more manifolds than
 // invocations it takes the next one before it waits for the others, so that nobody waits for memory.
-// args.x: passes of restitution.
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints and ConstraintPoints (impulses); Poses (flags) and Counters where a
 // body is frozen.
@@ -16,6 +15,7 @@
 #include "resolution/tangents.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/contact.shared.glsl"
+#include "resolution/hit.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 256) in;
@@ -98,7 +98,7 @@ void pass_over_contacts(uint pass)
         if (colour_begin == colour_end) continue;
         while (in_hand >= colour_begin && in_hand < colour_end) {
             uint done = in_hand;
-            pass_over_constraint(pass, target);
+            pass_over_constraint(pass, in_hand, target);
             take(in_hand + gl_WorkGroupSize.x);
             if (in_hand <= done) break; // that was the last one: the next pass begins with the first
             if (pass != k_warm_start) target = target_of_pass(pass, in_hand);
@@ -114,7 +114,7 @@ void pass_over_contacts(uint pass)
         for (uint index = colour_offsets[k_overflow_colour]; index < overflow_end; ++index) {
             take_constraint(index);
             if (pass != k_warm_start) target = target_of_pass(pass, index);
-            pass_over_constraint(pass, target);
+            pass_over_constraint(pass, index, target);
             put_back_impulses(index);
         }
         take(first_index);
@@ -160,8 +160,6 @@ void main()
             pass_over_contacts(i == 0u ? k_solve : k_solve_again);
     }
     if (parameters.relax == 1u) pass_over_contacts(k_relax);
-    for (uint i = 0u; i < args.x; ++i)
-        pass_over_contacts(k_restitution);
 
     if (in_hand != k_none) put_back_impulses(in_hand);
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {

@@ -23,7 +23,8 @@ std::vector<Island> collect_islands(const CpuState& state) {
     uint index = 0;
     for (uint island = 0; island < body_count; ++island) {
         islands[island].first = index;
-        while (index < state.counters[k_counter_manifold_count] && state.manifold_keys[index] >> k_colour_bits == island)
+        while (index < state.counters[k_counter_manifold_count] &&
+               state.manifold_keys[index] >> k_colour_bits == island)
             ++index;
         islands[island].end = index;
     }
@@ -31,7 +32,7 @@ std::vector<Island> collect_islands(const CpuState& state) {
     return islands;
 }
 
-void solve_island(CpuState& state, const Island& island, uint restitution_passes) {
+void solve_island(CpuState& state, const Island& island) {
     const Parameters& p = state.parameters;
     const auto over_contacts = [&](ContactPass pass, uint substep = 0) {
         for (uint index = island.first; index < island.end; ++index)
@@ -47,14 +48,12 @@ void solve_island(CpuState& state, const Island& island, uint restitution_passes
             over_contacts(i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
     }
     if (p.relax == 1) over_contacts(ContactPass::Relax);
-    for (uint i = 0; i < restitution_passes; ++i)
-        over_contacts(ContactPass::Restitution);
 }
 
-void solve_islands_on_cpu(CpuState& state, const Launch& launch) {
+void solve_islands_on_cpu(CpuState& state, const Launch&) {
     const std::vector<Island> islands = collect_islands(state);
     state.parallel(
-        static_cast<uint>(islands.size()), [&](uint i) { solve_island(state, islands[i], launch.args[0]); }, 2);
+        static_cast<uint>(islands.size()), [&](uint i) { solve_island(state, islands[i]); }, 2);
 }
 
 } // namespace

@@ -21,12 +21,14 @@ namespace talus::engine {
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
-#include "narrow_phase/look_ahead.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"
+
+#include "narrow_phase/look_ahead.shared.glsl"
 
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/contact.shared.glsl"
+#include "resolution/hit.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 } // namespace talus::engine

@@ -65,13 +65,13 @@ struct BodyDelta {
 // 64 bytes. What contacts do to a body's velocity in one sub-step, so that the next sub-step can start from it.
 struct BodyWarmStart {
     vec3 linear; // m/s: the sum of all accumulated impulses at the body over its mass
-    float reserved_1;
+    float shift_x; // m: what hits add to the sub-step's movement
     vec3 angular; // rad/s
-    float reserved_2;
+    float shift_y;
     vec3 linear_before; // m/s: the velocity before the sub-step's contacts
-    float reserved_3;
+    float shift_z;
     vec3 angular_before; // rad/s
-    float reserved_4;
+    float reserved;
 };
 
 // 32 bytes. World inverse inertia at the start of the step: a symmetric matrix.
@@ -156,9 +156,9 @@ struct ContactConstraintPoint {
     vec3 anchor_b;
     float normal_mass; // kg, effective mass along the normal (equation 3.15)
     float lever;          // m, from the middle of the points
-    float normal_impulse;     // N s, accumulated
-    float total_impulse;      // N s, the sum over all sub-steps
-    float approach_speed;     // m/s along the normal, the fastest that an impulse met; negative when closing
+    float normal_impulse; // N s, accumulated
+    float total_impulse;  // N s, the sum over all sub-steps
+    float hit_impulse;    // N s, the sum of the step's hits
 };
 
 // ---- control ----
