@@ -48,7 +48,7 @@ public:
     void mark(uint slot, std::uint8_t what);
     /// The changed slots in ascending order, each with its Dirty bits; forgets them.
     std::vector<std::pair<uint, std::uint8_t>> take_changes();
-    Population population() const { return {slot_count(), kinematic_count > 0}; }
+    Population population() const { return {slot_count(), bouncing_count > 0, kinematic_count > 0}; }
     bool has_changes() const { return !changed.empty(); }
 
     // The device's records, one a slot.
@@ -60,6 +60,7 @@ public:
     // What only the host knows.
     std::vector<float> masses;  ///< kg; infinity where contacts cannot push the body
     std::vector<Vec3> inertias; ///< principal moments, kg·m²
+    uint bouncing_count = 0;    ///< bodies with a restitution above 0
     uint kinematic_count = 0;
 
 private:

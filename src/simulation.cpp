@@ -147,6 +147,7 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.by_island = population.slots <= k_island_bodies;
     now.one_island = population.some_kinematic;
     now.in_groups = now.by_island && placement.resolution->loops_freely();
+    now.bounces = population.some_bounce;
     now.least_substeps = passes.least_substeps;
     now.most_substeps = now.by_island ? passes.most_substeps
                                       : std::clamp(k_most_substeps_of_all, passes.least_substeps, passes.most_substeps);

@@ -8,7 +8,8 @@ namespace talus::engine {
 
 /// What the host knows of the bodies.
 struct Population {
-    uint slots = 0; ///< body slots in use, holes included
+    uint slots = 0;           ///< body slots in use, holes included
+    bool some_bounce = false; ///< there is a restitution above 0
     bool some_kinematic = false;
 };
 
@@ -28,6 +29,7 @@ struct StepPlan {
     uint substep_capacity = 0; ///< sub-steps that get launches
     uint iterations = 0;
     bool relax = false;
+    bool bounces = false; ///< some body has a restitution above 0
 };
 
 /// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.

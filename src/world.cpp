@@ -323,6 +323,7 @@ void World::set_material(BodyId id, const Material& material) {
     impl_->touch(slot, k_dirty_properties);
     BodyTable& table = impl_->table;
     BodyProperties& properties = table.properties[slot];
+    table.bouncing_count += (material.restitution > 0.0f) - (properties.restitution > 0.0f);
     properties.friction = material.friction;
     properties.restitution = material.restitution;
     properties.combine = pack_combine(material);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body in sorted order: sweeps the bodies after it until their boxes begin beyond its own end, and
-// then all large ones (thesis, algorithm 2). Run twice: args.x = 0 counts, 1 writes at the scanned offsets.
+// then all large ones (thesis, algorithm 2). The bodies of a group are neighbours in that order and sweep much the same
+// boxes, so the group fetches them together, a tile at a time. Run twice: args.x = 0 counts, 1 writes at the scanned
+// offsets.
 // Reads: SortedAabbs, SweepAxes, SortValues.
 // Writes: PairCounts (counting) or Pairs (writing), in the order of the sort.
 // Needs: a barrier after gather_aabbs; for writing, after the scan of the counts.
@@ -17,33 +19,62 @@ layout(std430) readonly buffer SortValues { uint sort_values[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
 layout(std430) writeonly buffer Pairs { Pair pairs[]; };
 
+shared Aabb tile[gl_WorkGroupSize.x];
+shared bool goes_on;
+
+// This invocation's body.
+uint place;
+uint body;
+Aabb box;
+uint offset; // of its pairs
+uint found = 0u;
+
+void test(uint other, Aabb other_box)
+{
+    if (!is_candidate(box, other_box)) return;
+    if (args.x == 1u && offset + found < parameters.pair_capacity) pairs[offset + found] = make_pair(body, sort_values[other]);
+    found += 1u;
+}
+
+// Tests those of the places from `first` to `end` that come after the body's own, and stops at the first box that begins
+// beyond `limit`. Every invocation must call it.
+void sweep(uint first, uint end, uint axis, float limit, bool takes_part)
+{
+    uint me = gl_LocalInvocationID.x;
+    for (uint start = first; start < end; start += gl_WorkGroupSize.x) {
+        barrier(); // the last tile has been read
+        if (me == 0u) goes_on = false;
+        if (start + me < end) tile[me] = sorted_aabbs[start + me];
+        barrier();
+        uint tile_end = min(gl_WorkGroupSize.x, end - start);
+        uint i = place >= start ? place - start + 1u : 0u;
+        for (; takes_part && i < tile_end; i += 1u) {
+            if (component(tile[i].lower, axis) > limit)
+                takes_part = false;
+            else
+                test(start + i, tile[i]);
+        }
+        if (takes_part) goes_on = true;
+        barrier();
+        if (!goes_on) break;
+    }
+}
+
 void main()
 {
-    uint place = item_index();
-    if (place >= parameters.body_count) return;
-    bool writing = args.x == 1u;
-    uint offset = writing ? pair_counts[place] : 0u;
-    uint found = 0u;
-    uint body = sort_values[place];
-    Aabb box = sorted_aabbs[place];
-    uint axis = sweep_axes[0].axis;
-    uint first_large = sweep_axes[0].first_large;
-    // The sweep ends at the first box beyond this one's end, and goes on with the large boxes.
-    bool sweeping = place < first_large;
-    uint i = place + 1u;
-    uint end = sweep_axes[0].end;
-    while (i < end) {
-        Aabb other_box = sorted_aabbs[i];
-        if (sweeping && (i >= first_large || component(other_box.lower, axis) > component(box.upper, axis))) {
-            sweeping = false;
-            i = first_large;
-            continue;
-        }
-        if (is_candidate(box, other_box)) {
-            if (writing && offset + found < parameters.pair_capacity) pairs[offset + found] = make_pair(body, sort_values[i]);
-            found += 1u;
-        }
-        i += 1u;
+    place = item_index();
+    uint group_first = place - gl_LocalInvocationID.x;
+    bool is_body = place < parameters.body_count;
+    SweepAxis sweep_axis = sweep_axes[0];
+    offset = 0u;
+    if (is_body) {
+        offset = args.x == 1u ? pair_counts[place] : 0u;
+        body = sort_values[place];
+        box = sorted_aabbs[place];
     }
-    if (!writing) pair_counts[place] = found;
+    float limit = component(box.upper, sweep_axis.axis);
+    sweep(group_first + 1u, sweep_axis.first_large, sweep_axis.axis, limit, is_body);
+    const float everywhere = 3.402823466e38;
+    sweep(max(group_first + 1u, sweep_axis.first_large), sweep_axis.end, sweep_axis.axis, everywhere, is_body);
+    if (is_body && args.x == 0u) pair_counts[place] = found;
 }

@@ -3,6 +3,7 @@
 //   BodyVelocity load_velocity(uint body)
 //   void store_velocity(uint body, BodyVelocity velocity)
 //   Substep substep_of(uint substeps, bool against_static)
+//   const bool k_bounces, whether there may be a restitution above 0
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
 // Reads: Inertias, Deltas. Reads and writes: Constraints, ConstraintPoints (their impulses), WarmStarts.
@@ -146,8 +147,10 @@ void pass_over_constraint(uint pass, uint index, PassTarget target)
         s.velocities = warm_start_manifold(s.velocities, rows, impulses);
     else
         s = solve_manifold(s, rows, target);
-    if (s.is_hit && pass == k_relax) return; // the next step's
-    if (s.is_hit) s = pass_over_hit(index, target.old_share);
+    if (k_bounces && s.is_hit) {
+        if (pass == k_relax) return; // the next step's
+        s = pass_over_hit(index, target.old_share);
+    }
     impulses = s.impulses;
     // A body that contacts cannot push may be in many constraints of one colour: nobody writes it.
     if (s.velocities.a.inverse_mass > 0.0) store_velocity(body_a, s.velocities.a);

@@ -48,7 +48,8 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 
 void solve(Device& device, const StepPlan& plan) {
     if (plan.in_groups) {
-        device.run({.kernel = solve_islands, .slot = k_dispatch_islands});
+        const Kernel& solve_all = plan.bounces ? solve_bouncing_islands : solve_islands;
+        device.run({.kernel = solve_all, .slot = k_dispatch_islands});
         return;
     }
     for (uint substep = 0; substep < plan.substep_capacity; ++substep) {

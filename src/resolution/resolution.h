@@ -29,6 +29,7 @@ extern const Kernel prepare_contacts;
 extern const Kernel integrate_bodies;
 extern const Kernel solve_contacts;
 extern const Kernel solve_islands;
+extern const Kernel solve_bouncing_islands;
 extern const Kernel store_contact_impulses;
 
 } // namespace talus::engine

@@ -22,6 +22,8 @@ BodyVelocity load_velocity(uint body) { return velocities[body]; }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = velocity; }
 Substep substep_of(uint substeps, bool against_static) { return make_substep(substeps, against_static, parameters); }
 
+const bool k_bounces = true;
+
 #include "resolution/contact_passes.glsl"
 
 void main()

@@ -5,6 +5,7 @@
 #include "resolution/body_passes.h"
 #include "resolution/contact_passes.h"
 #include "resolution/resolution.h"
+#include "resolution/solve_islands.h"
 
 namespace talus::engine {
 namespace {
@@ -50,13 +51,13 @@ void solve_island(CpuState& state, const Island& island) {
     if (p.relax == 1) over_contacts(ContactPass::Relax);
 }
 
+} // namespace
+
 void solve_islands_on_cpu(CpuState& state, const Launch&) {
     const std::vector<Island> islands = collect_islands(state);
     state.parallel(
         static_cast<uint>(islands.size()), [&](uint i) { solve_island(state, islands[i]); }, 2);
 }
-
-} // namespace
 
 const Kernel solve_islands{"resolution/solve_islands", solve_islands_on_cpu, 1};
 
