@@ -7,7 +7,10 @@
 
 namespace talus::engine {
 
-static void sort_along_widest_axis(Device& device, uint body_count) {
+static void sort_along_widest_axis(Device& device, const StepPlan& plan) {
+    const uint body_count = plan.body_count;
+    if (plan.by_island) return device.run({.kernel = order_bodies, .items = 1});
+    device.run({.kernel = update_aabbs, .items = body_count});
     device.run({.kernel = measure_spread, .items = body_count});
     device.run({.kernel = choose_axis, .items = 1});
     device.run({.kernel = write_sort_keys, .items = body_count});
@@ -22,9 +25,11 @@ static void sort_along_widest_axis(Device& device, uint body_count) {
 
 void broad_phase(Device& device, const StepPlan& plan) {
     const uint body_count = plan.body_count;
-    device.run({.kernel = update_aabbs, .items = body_count});
     const bool sweep = plan.broad_phase == BroadPhase::SweepAndPrune;
-    if (sweep) sort_along_widest_axis(device, body_count);
+    if (sweep)
+        sort_along_widest_axis(device, plan);
+    else
+        device.run({.kernel = update_aabbs, .items = body_count});
 
     // Counting first gives each body's pairs a place that does not depend on who comes first.
     const Kernel& find_pairs = sweep ? sweep_pairs : test_all_pairs;

@@ -12,6 +12,7 @@ struct StepPlan;
 void broad_phase(Device&, const StepPlan&);
 
 extern const Kernel update_aabbs;
+extern const Kernel order_bodies;
 extern const Kernel gather_aabbs;
 extern const Kernel measure_spread;
 extern const Kernel choose_axis;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// One group does for a small world what update_aabbs, measure_spread, choose_axis, write_sort_keys, the sort and
+// gather_aabbs do for a large one, with the same results: six dispatches that wait for each other become one.
+// Reads: Poses, Velocities, Shapes.
+// Writes: Aabbs, SpreadSums, SweepAxes, SortKeys, SortValues, SortedAabbs.
+// Needs: nothing. At most k_island_bodies body slots.
+// Overflow: none.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/sweep_axis.shared.glsl"
+#include "primitives/primitives.shared.glsl"
+
+layout(local_size_x = 512) in;
+
+layout(std430) readonly buffer Poses { BodyPose poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) coherent buffer Aabbs { Aabb aabbs[]; };
+layout(std430) writeonly buffer SpreadSums { SpreadSum spread_sums[]; };
+layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
+layout(std430) writeonly buffer SortKeys { uint sort_keys[]; };
+layout(std430) writeonly buffer SortValues { uint sort_values[]; };
+layout(std430) writeonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
+
+#include "primitives/group_sort.glsl"
+
+shared SpreadSum sums[k_spread_group];
+shared SpreadSum whole;
+shared SweepAxis sweep_axis;
+
+// A tree for each k_spread_group bodies, as in measure_spread; then one after the other, as in choose_axis.
+void measure_spread()
+{
+    uint me = gl_LocalInvocationID.x;
+    if (me == 0u) whole = empty_spread();
+    for (uint first = 0u; first < parameters.body_count; first += k_spread_group) {
+        uint body = first + me;
+        if (me < k_spread_group) {
+            sums[me] = empty_spread();
+            if (body < parameters.body_count) {
+                Aabb box = aabbs[body];
+                sums[me] = spread_of(box);
+            }
+        }
+        for (uint half_size = k_spread_group / 2u; half_size > 0u; half_size /= 2u) {
+            barrier();
+            if (me < half_size) sums[me] = add_spreads(sums[me], sums[me + half_size]);
+        }
+        if (me == 0u) {
+            spread_sums[first / k_spread_group] = sums[0];
+            whole = add_spreads(whole, sums[0]);
+        }
+        barrier();
+    }
+}
+
+void main()
+{
+    uint me = gl_LocalInvocationID.x;
+    uint body_count = parameters.body_count;
+    for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
+        aabbs[body] = compute_aabb(poses[body], velocities[body], shapes[body], parameters);
+    memoryBarrierBuffer();
+    barrier();
+    measure_spread();
+    if (me == 0u) sweep_axis = choose_sweep_axis(whole, body_count);
+    barrier();
+
+    uint room = sort_room(body_count);
+    for (uint place = me; place < room; place += gl_WorkGroupSize.x) {
+        sorted_keys[place] = 0xffffffffu;
+        if (place < body_count) {
+            Aabb box = aabbs[place];
+            sorted_keys[place] = sweep_key(box, sweep_axis);
+        }
+        old_places[place] = place;
+    }
+    barrier();
+    sort_group(room);
+
+    for (uint place = me; place < body_count; place += gl_WorkGroupSize.x) {
+        uint key = sorted_keys[place];
+        uint key_before = place > 0u ? sorted_keys[place - 1u] : 0u;
+        if (key >= k_large_key && key_before < k_large_key) sweep_axis.first_large = place;
+        if (key == k_absent_key && key_before < k_absent_key) sweep_axis.end = place;
+        Aabb box = aabbs[old_places[place]];
+        sorted_aabbs[place] = box;
+        sort_keys[place] = key;
+        sort_values[place] = old_places[place];
+    }
+    barrier();
+    if (me == 0u) sweep_axes[0] = sweep_axis;
+}
