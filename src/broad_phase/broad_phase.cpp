@@ -7,10 +7,7 @@
 
 namespace talus::engine {
 
-static void sort_along_widest_axis(Device& device, const StepPlan& plan) {
-    const uint body_count = plan.body_count;
-    if (plan.by_island) return device.run({.kernel = order_bodies, .items = 1});
-    device.run({.kernel = update_aabbs, .items = body_count});
+static void sort_along_widest_axis(Device& device, uint body_count) {
     device.run({.kernel = measure_spread, .items = body_count});
     device.run({.kernel = choose_axis, .items = 1});
     device.run({.kernel = write_sort_keys, .items = body_count});
@@ -23,20 +20,26 @@ static void sort_along_widest_axis(Device& device, const StepPlan& plan) {
     device.run({.kernel = gather_aabbs, .items = body_count});
 }
 
-void broad_phase(Device& device, const StepPlan& plan) {
-    const uint body_count = plan.body_count;
-    const bool sweep = plan.broad_phase == BroadPhase::SweepAndPrune;
-    if (sweep)
-        sort_along_widest_axis(device, plan);
-    else
-        device.run({.kernel = update_aabbs, .items = body_count});
-
-    // Counting first gives each body's pairs a place that does not depend on who comes first.
-    const Kernel& find_pairs = sweep ? sweep_pairs : test_all_pairs;
+// Counting first gives each body's pairs a place that does not depend on who comes first.
+static void find_pairs(Device& device, const Kernel& kernel, uint body_count) {
     constexpr uint count = 0, write = 1;
-    device.run({.kernel = find_pairs, .items = body_count, .args = {count}});
+    device.run({.kernel = kernel, .items = body_count, .args = {count}});
     exclusive_scan(device, BufferId::PairCounts, body_count, k_counter_body_count, k_counter_pair_demand);
-    device.run({.kernel = find_pairs, .items = body_count, .args = {write}});
+    device.run({.kernel = kernel, .items = body_count, .args = {write}});
+}
+
+void broad_phase(Device& device, const StepPlan& plan) {
+    if (plan.broad_phase == BroadPhase::Brute) {
+        device.run({.kernel = update_aabbs, .items = plan.body_count});
+        find_pairs(device, test_all_pairs, plan.body_count);
+    } else if (plan.by_island) { // a small world
+        device.run({.kernel = order_bodies, .items = 1});
+        device.run({.kernel = sweep_in_group, .items = 1});
+    } else {
+        device.run({.kernel = update_aabbs, .items = plan.body_count});
+        sort_along_widest_axis(device, plan.body_count);
+        find_pairs(device, sweep_pairs, plan.body_count);
+    }
     device.run({.kernel = plan_pairs, .items = 1});
 }
 

@@ -18,6 +18,7 @@ extern const Kernel measure_spread;
 extern const Kernel choose_axis;
 extern const Kernel write_sort_keys;
 extern const Kernel sweep_pairs;
+extern const Kernel sweep_in_group;
 extern const Kernel test_all_pairs;
 extern const Kernel plan_pairs;
 

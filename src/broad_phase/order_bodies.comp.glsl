@@ -60,7 +60,7 @@ void main()
     uint body_count = parameters.body_count;
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
         aabbs[body] = compute_aabb(poses[body], velocities[body], shapes[body], parameters);
-    memoryBarrierBuffer();
+    groupMemoryBarrier();
     barrier();
     measure_spread();
     if (me == 0u) sweep_axis = choose_sweep_axis(whole, body_count);

@@ -6,7 +6,6 @@ namespace talus::engine {
 
 void finish(Device& device) {
     device.run({.kernel = finish_bodies, .slot = k_dispatch_bodies});
-    device.run({.kernel = finish_step, .slot = k_dispatch_once});
     device.swap(BufferId::Manifolds, BufferId::OldManifolds);
     device.swap(BufferId::ManifoldPoints, BufferId::OldManifoldPoints);
 }

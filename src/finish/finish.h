@@ -10,6 +10,5 @@ namespace talus::engine {
 void finish(Device&);
 
 extern const Kernel finish_bodies;
-extern const Kernel finish_step;
 
 } // namespace talus::engine

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its new pose, and no load for the next step. A body that would become non-finite stays
-// where it was and is frozen.
-// Reads: Shapes, Deltas.
-// Writes: Poses, Loads; Velocities and Counters where a body is frozen.
+// where it was and is frozen. The first one also makes this step's pairs the last step's.
+// Reads: Shapes, Deltas, Counters.
+// Writes: Poses, Loads, Counters; Velocities where a body is frozen.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -22,6 +22,7 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
+    if (body == 0u) counters[k_counter_old_pair_count] = counters[k_counter_pair_count];
     if (!is_mover(shapes[body])) return;
     loads[body] = no_load();
     BodyPose pose = poses[body];

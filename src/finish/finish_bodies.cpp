@@ -9,6 +9,7 @@
 namespace talus::engine {
 
 static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
+    state.counters[k_counter_old_pair_count] = state.counters[k_counter_pair_count];
     state.parallel(state.parameters.body_count, [&](uint body) {
         if (!is_mover(state.shapes[body])) return;
         state.loads[body] = no_load();

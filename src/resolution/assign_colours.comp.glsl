@@ -102,12 +102,12 @@ void main()
         if (me == 0u) left_over = 0u;
         for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
             propose(entry, rank_word);
-        memoryBarrierBuffer();
+        groupMemoryBarrier();
         barrier();
         uint next_rank_word = 2u * k_best_rank + 1u - rank_word;
         for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
             decide(entry, rank_word, next_rank_word);
-        memoryBarrierBuffer();
+        groupMemoryBarrier();
         barrier();
         done = left_over == 0u;
         rank_word = next_rank_word;

@@ -21,11 +21,8 @@ inline uint edge_rank(uint body_a, uint body_b)
 // The lowest colour that is free in both sets of used colours (64 bits in two words), or the overflow set.
 inline uint first_free_colour(uint used_low, uint used_high)
 {
-    for (uint colour = 0u; colour < k_max_colours; colour += 1u) {
-        uint word = colour < 32u ? used_low : used_high;
-        if (((word >> (colour & 31u)) & 1u) == 0u) return colour;
-    }
-    return k_overflow_colour;
+    if (used_low != 0xffffffffu) return uint(findLSB(~used_low));
+    return used_high != 0xffffffffu ? 32u + uint(findLSB(~used_high)) : k_overflow_colour;
 }
 
 // Words of BodyColours, four a body.

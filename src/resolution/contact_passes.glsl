@@ -119,7 +119,7 @@ void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
     if (before.inverse_mass == 0.0) return;
     BodyWarmStart warm = warm_starts[body];
     warm_starts[body] = take_hit(warm, before, after, time);
-    memoryBarrierBuffer(); // the body's own invocation reads it
+    groupMemoryBarrier(); // the body's own invocation reads it
 }
 
 // Instead of the pass that has found the hit, whose result was not put back.

@@ -27,6 +27,27 @@ shared uint most_substeps[k_island_bodies];
 shared uint first_mover; // of those that touch nothing; of all, if all are one island
 shared bool changed;
 
+// The two bodies that a pair's contact joins; body 0 twice where it joins none. Where islands are told apart nothing is
+// kinematic: what has a root can be pushed.
+uvec2 joined_by(uint pair)
+{
+    uint body_a = manifolds[pair].body_a;
+    uint body_b = manifolds[pair].body_b;
+    if (manifolds[pair].point_count == 0u) return uvec2(0u);
+    touches[body_a] = true;
+    touches[body_b] = true;
+    return roots[body_a] != k_none && roots[body_b] != k_none ? uvec2(body_a, body_b) : uvec2(0u);
+}
+
+void hook(uvec2 bodies)
+{
+    uint root_a = roots[bodies.x];
+    uint root_b = roots[bodies.y];
+    if (root_a == root_b) return;
+    atomicMin(roots[max(root_a, root_b)], min(root_a, root_b));
+    changed = true;
+}
+
 // The last two bodies of the chain meet in a root, which points at itself.
 uint root_of(uint body)
 {
@@ -46,26 +67,21 @@ void main()
         touches[body] = false;
         most_substeps[body] = parameters.least_substeps;
     }
+    barrier();
     bool done = args.x == 1u;
+    // Each round hooks the same pairs: most worlds have no more than can be kept.
+    uvec2 first = uvec2(0u);
+    uvec2 second = uvec2(0u);
+    if (!done && me < pair_count) first = joined_by(me);
+    if (!done && me + gl_WorkGroupSize.x < pair_count) second = joined_by(me + gl_WorkGroupSize.x);
     while (!done) {
         barrier();
         if (me == 0u) changed = false;
         barrier();
-        for (uint pair = me; pair < pair_count; pair += gl_WorkGroupSize.x) {
-            uint body_a = manifolds[pair].body_a;
-            uint body_b = manifolds[pair].body_b;
-            if (manifolds[pair].point_count == 0u) continue;
-            touches[body_a] = true;
-            touches[body_b] = true;
-            if (is_movable(shapes[body_a]) && is_movable(shapes[body_b])) {
-                uint root_a = roots[body_a];
-                uint root_b = roots[body_b];
-                if (root_a != root_b) {
-                    atomicMin(roots[max(root_a, root_b)], min(root_a, root_b));
-                    changed = true;
-                }
-            }
-        }
+        hook(first);
+        hook(second);
+        for (uint pair = me + 2u * gl_WorkGroupSize.x; pair < pair_count; pair += gl_WorkGroupSize.x)
+            hook(joined_by(pair));
         barrier();
         for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
             if (roots[body] != k_none) roots[body] = root_of(body);

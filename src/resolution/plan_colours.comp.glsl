@@ -29,7 +29,6 @@ void main()
     uint count = by_island ? 0u : colour_offsets[colour + 1u] - colour_offsets[colour];
     dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     if (colour != 0u) return;
-    dispatches[k_dispatch_once] = groups_for(on, 1u);
     dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);
     dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
     dispatches[k_dispatch_islands] = groups_for(on * parameters.body_count, 1u);

@@ -18,7 +18,6 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
         counters[k_counter_did_not_fit] |= k_fit_substeps;
 
     const uint on = counters[k_counter_did_not_fit] == 0 ? 1 : 0;
-    state.dispatches[k_dispatch_once] = groups_for(on, 1);
     state.dispatches[k_dispatch_bodies] = groups_for(on * state.parameters.body_count, k_group_size);
     state.dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
     state.dispatches[k_dispatch_islands] = groups_for(on * state.parameters.body_count, 1);

@@ -153,7 +153,7 @@ void main()
         for (uint i = 0u; own_bodies >> i != 0u; ++i) {
             if (((own_bodies >> i) & 1u) == 1u) integrate_body(me + i * gl_WorkGroupSize.x, substep);
         }
-        memoryBarrierBuffer();
+        groupMemoryBarrier();
         barrier();
         if (substep == last) break;
         if (substep == 0u) pass_over_contacts(k_warm_start);

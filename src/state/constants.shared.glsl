@@ -61,11 +61,10 @@ const uint k_fit_substeps = 4u;
 const uint k_dispatch_pairs = 0u;      // groups of 64 pairs
 const uint k_dispatch_pair_tiles = 1u; // sort tiles of pairs
 const uint k_dispatch_old_pairs = 2u;  // groups of 64 pairs of the last step
-const uint k_dispatch_once = 3u;       // one group
-const uint k_dispatch_bodies = 4u;     // groups of 64 bodies
-const uint k_dispatch_manifolds = 5u;  // groups of 64 manifolds
-const uint k_dispatch_islands = 6u;    // one group for each body slot, which may lead an island
-const uint k_dispatch_colours = 7u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
+const uint k_dispatch_bodies = 3u;     // groups of 64 bodies
+const uint k_dispatch_manifolds = 4u;  // groups of 64 manifolds
+const uint k_dispatch_islands = 5u;    // one group for each body slot, which may lead an island
+const uint k_dispatch_colours = 6u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
 const uint k_dispatch_overflow = k_dispatch_colours + k_max_colours; // one group if there is an overflow set
 const uint k_dispatch_count = k_dispatch_overflow + 1u;
 

@@ -40,6 +40,10 @@ inline uint min(uint a, uint b) {
 inline uint max(uint a, uint b) {
     return a < b ? b : a;
 }
+/// Place of the lowest bit that is set; -1 for 0.
+inline int findLSB(uint x) {
+    return x != 0 ? std::countr_zero(x) : -1;
+}
 inline float abs(float x) {
     return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
 }
