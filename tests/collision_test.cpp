@@ -70,10 +70,10 @@ struct Sample {
     Solid b() const { return solid(dvec3(pose_b.position - pose_a.position), pose_b.rotation, shape_b.half_extents); }
 
     ContactGeometry collide(float margin = k_margin) const {
-        return collide_shapes(pose_a, shape_a, pose_b, shape_b, k_axis_none, margin);
+        return collide_shapes(pose_a, shape_a, pose_b, shape_b, no_old_points(), margin);
     }
     ContactGeometry collide_swapped() const {
-        return collide_shapes(pose_b, shape_b, pose_a, shape_a, k_axis_none, k_margin);
+        return collide_shapes(pose_b, shape_b, pose_a, shape_a, no_old_points(), k_margin);
     }
     /// Cross products of nearly parallel edges are left out by the engine.
     bool has_parallel_edges() const {
@@ -306,13 +306,56 @@ TEST(BoxBox, reduction_keeps_the_deepest_of_any_polygon_and_no_more_than_four) {
             polygon.points[k] = vec3(std::cos(angle), samples.number(0.5f, 1.0f) * std::sin(angle), z);
             lowest = std::min(lowest, z);
         }
-        const uint kept = reduce_points(polygon);
+        const uint kept = reduce_points(polygon, no_old_points());
         ASSERT_LE(std::popcount(kept), 4);
         ASSERT_GE(std::popcount(kept), 3);
         float lowest_kept = 1e30f;
         for (uint k = 0; k < polygon.count; ++k)
             if ((kept >> k & 1u) != 0) lowest_kept = std::min(lowest_kept, polygon.points[k].z);
         ASSERT_LE(lowest_kept, lowest + k_depth_tie);
+    }
+}
+
+/// A regular polygon, all of it at one height.
+Polygon flat_polygon(uint count) {
+    Polygon polygon{};
+    polygon.count = count;
+    for (uint k = 0; k < count; ++k) {
+        const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(count);
+        polygon.points[k] = vec3(std::cos(angle), std::sin(angle), 0.0f);
+        polygon.labels[k] = k;
+    }
+    return polygon;
+}
+
+TEST(BoxBox, reduction_prefers_what_touches_to_what_is_above) {
+    for (uint count = 5; count <= 8; ++count) {
+        for (uint k = 0; k < count; ++k) {
+            Polygon polygon = flat_polygon(count);
+            const uint next = (k + 1) % count;
+            for (uint i = 0; i < count; ++i)
+                polygon.points[i].z = i == k || i == next ? -1e-4f : 2.0f * k_near;
+            const uint edge = 1u << k | 1u << next;
+            EXPECT_EQ(reduce_points(polygon, no_old_points()) & edge, edge) << count << ", " << k;
+        }
+    }
+}
+
+TEST(BoxBox, reduction_keeps_the_two_that_carried_the_load) {
+    for (uint count = 5; count <= 8; ++count) {
+        for (uint k = 0; k < count; ++k) {
+            const Polygon polygon = flat_polygon(count);
+            const uint next = (k + 1) % count;
+            OldPoints old = no_old_points();
+            old.count = 4;
+            for (uint i = 0; i < 4; ++i)
+                old.features[i] = feature_of(polygon, (k + i) % count);
+            old.impulses[0] = old.impulses[1] = 1.0f;
+            const uint edge = 1u << k | 1u << next;
+            const uint kept = reduce_points(polygon, old);
+            EXPECT_EQ(kept & edge, edge) << count << ", " << k;
+            EXPECT_EQ(std::popcount(kept), 4) << count << ", " << k;
+        }
     }
 }
 
@@ -351,17 +394,17 @@ TEST(BoxBox, crossed_edges_touch_at_one_point) {
 
 TEST(BoxBox, a_resting_box_keeps_its_axis_while_it_wobbles) {
     Samples samples;
-    uint kept_axis = k_axis_none;
+    OldPoints old = no_old_points();
     int flips = 0, flips_without_memory = 0;
     uint last_free_axis = k_axis_none;
     for (int i = 0; i < 1'000; ++i) {
         Sample sample = aligned_boxes(vec3(0.5f), vec3(0.5f), vec3(0.0f, 0.999f + samples.number(-3e-4f, 3e-4f), 0.0f));
         sample.pose_b.rotation = turned(samples.direction(), samples.number(0.0f, 5e-4f));
         const ContactGeometry g =
-            collide_shapes(sample.pose_a, sample.shape_a, sample.pose_b, sample.shape_b, kept_axis, k_margin);
+            collide_shapes(sample.pose_a, sample.shape_a, sample.pose_b, sample.shape_b, old, k_margin);
         ASSERT_EQ(g.count, 4u);
-        flips += kept_axis != k_axis_none && g.axis != kept_axis ? 1 : 0;
-        kept_axis = g.axis;
+        flips += old.axis != k_axis_none && g.axis != old.axis ? 1 : 0;
+        old.axis = g.axis;
         const uint free_axis = sample.collide().axis;
         flips_without_memory += last_free_axis != k_axis_none && free_axis != last_free_axis ? 1 : 0;
         last_free_axis = free_axis;

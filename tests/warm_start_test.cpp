@@ -35,7 +35,7 @@ OldPoints old_points(std::initializer_list<std::pair<vec3, uint>> points) {
 TEST(WarmStart, points_are_matched_by_feature_first) {
     // The feature counts even where another old point lies nearer.
     const OldPoints old = old_points({{vec3(0.0f), 11}, {vec3(1.0f, 0.0f, 0.0f), 10}, {vec3(5.0f), 12}});
-    const PointMatch match = match_points(three_points(), old, true);
+    const PointMatch match = match_points(three_points(), old);
     EXPECT_EQ(match.old_index[0], 1u);
     EXPECT_EQ(match.old_index[1], 0u);
     EXPECT_EQ(match.old_index[2], 2u);
@@ -47,15 +47,16 @@ TEST(WarmStart, without_a_namesake_the_nearest_old_point_counts) {
                                       {vec3(0.01f, 0.0f, 0.0f), 21},
                                       {vec3(1.0f, 0.0f, k_anchor_match + 1e-3f), 22},
                                       {vec3(0.0f, 0.0f, 1.0f + k_anchor_match - 1e-3f), 23}});
-    const PointMatch match = match_points(three_points(), old, true);
+    const PointMatch match = match_points(three_points(), old);
     EXPECT_EQ(match.old_index[0], 1u) << "the nearer of two";
     EXPECT_EQ(match.old_index[1], k_none) << "too far";
     EXPECT_EQ(match.old_index[2], 3u) << "just near enough";
 }
 
 TEST(WarmStart, features_of_another_axis_mean_nothing) {
-    const OldPoints old = old_points({{vec3(1.0f, 0.0f, 0.0f), 10}});
-    const PointMatch match = match_points(three_points(), old, false);
+    OldPoints old = old_points({{vec3(1.0f, 0.0f, 0.0f), 10}});
+    old.axis = 3;
+    const PointMatch match = match_points(three_points(), old);
     EXPECT_EQ(match.old_index[0], k_none);
     EXPECT_EQ(match.old_index[1], 0u);
 }
@@ -63,7 +64,7 @@ TEST(WarmStart, features_of_another_axis_mean_nothing) {
 TEST(WarmStart, an_old_point_is_given_away_once) {
     ContactGeometry g = three_points();
     g.points[1] = vec3(0.01f, 0.0f, 0.0f);
-    const PointMatch match = match_points(g, old_points({{vec3(0.0f), 30}}), true);
+    const PointMatch match = match_points(g, old_points({{vec3(0.0f), 30}}));
     EXPECT_EQ(match.old_index[0], 0u);
     EXPECT_EQ(match.old_index[1], k_none);
 }

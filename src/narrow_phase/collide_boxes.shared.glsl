@@ -14,6 +14,12 @@ const float k_axis_persistence = 1.0e-3f;
 const float k_parallel = 1.0e-3f;
 // A point that is not this much deeper than a corner of the contact's outline is not worth giving up the corner (m).
 const float k_depth_tie = 1.0e-3f;
+// A point that is this much farther above the other box than the deepest one, or than its surface, carries nothing soon (m).
+const float k_near = 2.5e-3f;
+// What a point is worth, however large the area that it gives.
+const uint k_worth_far = 0u;
+const uint k_worth_near = 1u;
+const uint k_worth_carrying = 2u; // it carried load in the last step
 
 struct BoxPair {
     Axes a;
@@ -151,13 +157,48 @@ inline float triangle_area(vec3 a, vec3 b, vec3 c)
     return area;
 }
 
+// The best candidate so far.
+struct Pick {
+    uint point;
+    uint worth;
+    float gain; // 0: none yet
+};
+
+inline Pick no_pick(uint point)
+{
+    Pick pick;
+    pick.point = point;
+    pick.worth = k_worth_far;
+    pick.gain = 0.0f;
+    return pick;
+}
+
+inline Pick better_pick(Pick best, uint point, uint worth, float gain)
+{
+    if (gain > 0.0f && (worth > best.worth || (worth == best.worth && gain > best.gain))) {
+        best.point = point;
+        best.worth = worth;
+        best.gain = gain;
+    }
+    return best;
+}
+
+// The point before, on the way round, has the edge that ends here.
+inline uint feature_of(Polygon polygon, uint i)
+{
+    uint before = i > 0u ? i - 1u : polygon.count - 1u;
+    return polygon.labels[before] * 64u + polygon.labels[i];
+}
+
 // Which four points to keep of more (algorithm 8): the deepest, the farthest from it, the one that makes the largest
 // triangle with these, and the one that adds most area beyond its sides. Returns a bit a point.
 //
-// Differs from the thesis in the first point: of points that are about as deep, the one farthest from the middle is
-// taken. In a resting contact all are, and clipping leaves some amid a side; to start from one of those costs a corner,
-// and a tower rocks on the three that are left.
-inline uint reduce_points(Polygon polygon)
+// Differs from the thesis in two ways. Of points that are about as deep, the one farthest from the middle is taken first:
+// in a resting contact all are, and clipping leaves some amid a side; to start from one of those costs a corner, and a
+// tower rocks on the three that are left. And a larger area is no reason to give up what matters: the first two are of those
+// that carried load, and the others of those that are near. A box that stands on an edge has few of either, and rocks for
+// ever where one comes and goes.
+inline uint reduce_points(Polygon polygon, OldPoints old)
 {
     precise float inverse_count = reciprocal(float(polygon.count));
     vec3 middle = vec3(0.0f, 0.0f, 0.0f);
@@ -166,57 +207,45 @@ inline uint reduce_points(Polygon polygon)
         middle = add_scaled(middle, polygon.points[i], inverse_count);
         if (polygon.points[i].z < polygon.points[deepest].z) deepest = i;
     }
-    uint first = 0u;
-    float outermost = -1.0f;
+    precise float near = max(polygon.points[deepest].z, 0.0f) + k_near;
+    uint worths[8];
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        worths[i] = polygon.points[i].z <= near ? k_worth_near : k_worth_far;
+        if (carried_load(old, feature_of(polygon, i))) worths[i] = k_worth_carrying;
+    }
+    Pick first = no_pick(deepest);
     for (uint i = 0u; i < polygon.count; i += 1u) {
         precise vec3 d = polygon.points[i] - middle;
         precise float square = d.x * d.x + d.y * d.y;
-        if (square > outermost) {
-            outermost = square;
-            first = i;
-        }
+        first = better_pick(first, i, worths[i], square);
     }
-    precise float gain = polygon.points[first].z - polygon.points[deepest].z;
-    if (gain > k_depth_tie) first = deepest;
-    vec3 a = polygon.points[first];
-    uint second = first;
-    float farthest = 0.0f;
+    precise float deeper = polygon.points[first.point].z - polygon.points[deepest].z;
+    if (deeper > k_depth_tie) first.point = deepest;
+    vec3 a = polygon.points[first.point];
+    Pick second = no_pick(first.point);
     for (uint i = 0u; i < polygon.count; i += 1u) {
         precise vec3 d = polygon.points[i] - a;
         precise float square = d.x * d.x + d.y * d.y;
-        if (square > farthest) {
-            farthest = square;
-            second = i;
-        }
+        second = better_pick(second, i, worths[i], square);
     }
-    vec3 b = polygon.points[second];
-    uint third = first;
-    float largest = 0.0f;
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        float area = triangle_area(a, b, polygon.points[i]);
-        if (abs(area) > abs(largest)) {
-            largest = area;
-            third = i;
-        }
-    }
-    vec3 c = polygon.points[third];
-    float turn = largest < 0.0f ? -1.0f : 1.0f;
-    uint fourth = first;
-    float most = 0.0f;
+    vec3 b = polygon.points[second.point];
+    Pick third = no_pick(first.point);
+    for (uint i = 0u; i < polygon.count; i += 1u)
+        third = better_pick(third, i, min(worths[i], k_worth_near), abs(triangle_area(a, b, polygon.points[i])));
+    vec3 c = polygon.points[third.point];
+    float turn = triangle_area(a, b, c) < 0.0f ? -1.0f : 1.0f;
+    Pick fourth = no_pick(first.point);
     for (uint i = 0u; i < polygon.count; i += 1u) {
         vec3 p = polygon.points[i];
         // The area beyond a side is negative in the triangle's own orientation.
-        float beyond = min(turn * triangle_area(a, b, p), min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
-        if (beyond < most) {
-            most = beyond;
-            fourth = i;
-        }
+        float inside = min(turn * triangle_area(a, b, p), min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
+        fourth = better_pick(fourth, i, min(worths[i], k_worth_near), -inside);
     }
-    return (1u << first) | (1u << second) | (1u << third) | (1u << fourth);
+    return (1u << first.point) | (1u << second.point) | (1u << third.point) | (1u << fourth.point);
 }
 
-// The reference box is A; `axis` is its face's axis.
-inline ContactGeometry face_contact(BoxPair p, uint axis, float max_separation)
+// The reference box is A; `axis` is its face's axis. `old`: the points that this axis had in the last step.
+inline ContactGeometry face_contact(BoxPair p, uint axis, OldPoints old, float max_separation)
 {
     uint axis_u = axis == 2u ? 0u : axis + 1u;
     uint axis_v = axis_u == 2u ? 0u : axis_u + 1u;
@@ -244,16 +273,15 @@ inline ContactGeometry face_contact(BoxPair p, uint axis, float max_separation)
 
     ContactGeometry g = no_contact();
     g.normal = frame.z;
-    uint kept = polygon.count > 4u ? reduce_points(polygon) : 0xffu;
+    uint kept = polygon.count > 4u ? reduce_points(polygon, old) : 0xffu;
     for (uint i = 0u; i < polygon.count; i += 1u) {
         float separation = polygon.points[i].z;
         if (((kept >> i) & 1u) != 0u && separation <= max_separation && g.count < 4u) {
-            uint before = i > 0u ? i - 1u : polygon.count - 1u;
             // Projected on the reference face, then moved half-way to the incident one.
             precise vec3 local = vec3(polygon.points[i].x, polygon.points[i].y, half_n + 0.5f * separation);
             g.points[g.count] = to_world(frame, local);
             g.separations[g.count] = separation;
-            g.features[g.count] = polygon.labels[before] * 64u + polygon.labels[i];
+            g.features[g.count] = feature_of(polygon, i);
             g.count += 1u;
         }
     }
@@ -310,10 +338,9 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
     return g;
 }
 
-// `old_axis`: the axis of the last step's contact, or k_axis_none.
-inline ContactGeometry collide_boxes(BoxPair p, uint old_axis, float max_separation)
+inline ContactGeometry collide_boxes(BoxPair p, OldPoints old, float max_separation)
 {
-    AxisQuery query = query_axes(p, old_axis);
+    AxisQuery query = query_axes(p, old.axis);
     if (query.separation > max_separation) return no_contact();
     ContactGeometry g;
     if (query.axis >= 6u) {
@@ -329,7 +356,8 @@ inline ContactGeometry collide_boxes(BoxPair p, uint old_axis, float max_separat
             q.half_b = p.half_a;
             q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
         }
-        g = face_contact(q, b_is_reference ? query.axis - 3u : query.axis, max_separation);
+        if (old.axis != query.axis) old.count = 0u;
+        g = face_contact(q, b_is_reference ? query.axis - 3u : query.axis, old, max_separation);
         if (b_is_reference) g = swap_bodies(g, q.offset);
     }
     g.axis = query.axis;

@@ -50,18 +50,18 @@ void main()
     Pair pair = pairs[pair_index];
 
     uint old_index = find_old_manifold(pair);
-    uint old_axis = k_axis_none;
     uint old_colour = k_no_colour;
     Manifold old;
     OldPoints old_points = no_old_points();
     if (old_index != k_none) {
         old = old_manifolds[old_index];
-        old_axis = old.axis;
         old_colour = old.colour;
+        old_points.axis = old.axis;
         old_points.count = old.point_count;
         for (uint i = 0u; i < old.point_count; ++i) {
             old_points.anchors[i] = old_manifold_points[4u * old_index + i].anchor_a;
             old_points.features[i] = old_manifold_points[4u * old_index + i].feature_id;
+            old_points.impulses[i] = old_manifold_points[4u * old_index + i].normal_impulse;
         }
     }
 
@@ -71,7 +71,7 @@ void main()
     precise vec3 motion = (velocities[pair.body_b].linear - velocities[pair.body_a].linear) * parameters.dt;
     precise float max_separation = parameters.speculative_distance + length3(motion);
     ContactGeometry g = collide_moving_shapes(pose_a, shapes[pair.body_a], pose_b, shapes[pair.body_b], motion,
-                                              old_axis, max_separation);
+                                              old_points, max_separation);
     Manifold manifold = make_manifold(pair, g, old_colour, properties[pair.body_a], properties[pair.body_b]);
     if (old_index != k_none)
         manifold = carry_over(manifold, old, parameters);
@@ -79,11 +79,10 @@ void main()
         manifold = begin_trial(manifold, parameters);
     manifolds[pair_index] = manifold;
 
-    PointMatch match = match_points(g, old_points, g.axis == old_axis);
+    PointMatch match = match_points(g, old_points);
     for (uint i = 0u; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, pose_a.position, offset, i);
-        if (match.old_index[i] != k_none)
-            point.normal_impulse = old_manifold_points[4u * old_index + match.old_index[i]].normal_impulse;
+        if (match.old_index[i] != k_none) point.normal_impulse = old_points.impulses[match.old_index[i]];
         manifold_points[4u * pair_index + i] = point;
     }
 }

@@ -22,19 +22,18 @@ void collide_pair(CpuState& state, uint pair_index) {
     const Pair pair = state.pairs[pair_index];
 
     const uint old_index = find_old_manifold(state, pair);
-    const ManifoldPoint* old_records = nullptr;
-    uint old_axis = k_axis_none;
     uint old_colour = k_no_colour;
     OldPoints old_points = no_old_points();
     if (old_index != k_none) {
         const Manifold& old = state.old_manifolds[old_index];
-        old_records = &state.old_manifold_points[std::size_t{4} * old_index];
-        old_axis = old.axis;
+        const ManifoldPoint* const old_records = &state.old_manifold_points[std::size_t{4} * old_index];
         old_colour = old.colour;
+        old_points.axis = old.axis;
         old_points.count = old.point_count;
         for (uint i = 0; i < old.point_count; ++i) {
             old_points.anchors[i] = old_records[i].anchor_a;
             old_points.features[i] = old_records[i].feature_id;
+            old_points.impulses[i] = old_records[i].normal_impulse;
         }
     }
 
@@ -45,7 +44,7 @@ void collide_pair(CpuState& state, uint pair_index) {
         (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
     const float max_separation = state.parameters.speculative_distance + length3(motion);
     const ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b,
-                                                    state.shapes[pair.body_b], motion, old_axis, max_separation);
+                                                    state.shapes[pair.body_b], motion, old_points, max_separation);
     Manifold& manifold = state.manifolds[pair_index];
     manifold = make_manifold(pair, g, old_colour, state.properties[pair.body_a], state.properties[pair.body_b]);
     if (old_index != k_none)
@@ -53,10 +52,10 @@ void collide_pair(CpuState& state, uint pair_index) {
     else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b]))
         manifold = begin_trial(manifold, state.parameters);
 
-    const PointMatch match = match_points(g, old_points, g.axis == old_axis);
+    const PointMatch match = match_points(g, old_points);
     for (uint i = 0; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, pose_a.position, offset, i);
-        if (match.old_index[i] != k_none) point.normal_impulse = old_records[match.old_index[i]].normal_impulse;
+        if (match.old_index[i] != k_none) point.normal_impulse = old_points.impulses[match.old_index[i]];
         state.manifold_points[std::size_t{4} * pair_index + i] = point;
     }
 }

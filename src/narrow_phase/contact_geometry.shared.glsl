@@ -55,3 +55,34 @@ inline ContactGeometry swap_bodies(ContactGeometry g, vec3 offset)
     }
     return r;
 }
+
+// The points of a pair's last manifold.
+struct OldPoints {
+    uint axis; // its separating axis
+    uint count;
+    vec3 anchors[4]; // from A's centre
+    uint features[4];
+    float impulses[4]; // N s along the normal
+};
+
+inline OldPoints no_old_points()
+{
+    OldPoints old;
+    old.axis = k_axis_none;
+    old.count = 0u;
+    for (uint i = 0u; i < 4u; i += 1u) {
+        old.anchors[i] = vec3(0.0f, 0.0f, 0.0f);
+        old.features[i] = 0u;
+        old.impulses[i] = 0.0f;
+    }
+    return old;
+}
+
+// Whether the point that has this name on the same axis carried load.
+inline bool carried_load(OldPoints old, uint feature)
+{
+    bool carried = false;
+    for (uint i = 0u; i < 4u; i += 1u)
+        carried = carried || (i < old.count && old.features[i] == feature && old.impulses[i] > 0.0f);
+    return carried;
+}

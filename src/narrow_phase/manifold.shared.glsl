@@ -4,7 +4,7 @@
 
 // One entry a pair of shapes. A new shape adds its entries here.
 inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
-                                      uint old_axis, float max_separation)
+                                      OldPoints old, float max_separation)
 {
     precise vec3 offset = pose_b.position - pose_a.position;
     uint type_a = shape_a.type & 255u;
@@ -16,7 +16,7 @@ inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPo
         p.half_a = shape_a.half_extents;
         p.half_b = shape_b.half_extents;
         p.offset = offset;
-        return collide_boxes(p, old_axis, max_separation);
+        return collide_boxes(p, old, max_separation);
     }
     if (type_a == k_shape_box) {
         return collide_box_sphere(rotation_axes(pose_a.rotation), shape_a.half_extents, shape_b.half_extents.x, offset,
@@ -59,31 +59,14 @@ inline float combine_restitution(BodyProperties a, BodyProperties b)
 // flicker when a vertex lies on a side plane, and stacks topple where that costs the impulse.
 const float k_anchor_match = 0.04f;
 
-// The old manifold's points, as far as matching needs them.
-struct OldPoints {
-    uint count;
-    vec3 anchors[4]; // from A's centre
-    uint features[4];
-};
-
-inline OldPoints no_old_points()
-{
-    OldPoints old;
-    old.count = 0u;
-    for (uint i = 0u; i < 4u; i += 1u) {
-        old.anchors[i] = vec3(0.0f, 0.0f, 0.0f);
-        old.features[i] = 0u;
-    }
-    return old;
-}
-
 struct PointMatch {
     uint old_index[4]; // for each new point the old one, or k_none
 };
 
 // Feature ids say the same only on the same separating axis.
-inline PointMatch match_points(ContactGeometry g, OldPoints old, bool same_axis)
+inline PointMatch match_points(ContactGeometry g, OldPoints old)
 {
+    bool same_axis = g.axis == old.axis;
     PointMatch match;
     uint taken = 0u;
     for (uint i = 0u; i < 4u; i += 1u) {

@@ -3,19 +3,32 @@
 // body that can move. Jones and Plassmann's scheme (1993): an edge takes the smallest free colour once it outranks all
 // uncoloured edges at both its bodies.
 //
-// The rank of an edge is a one-to-one mix of a XOR b. At a body all edges lead to different other bodies, so all ranks
-// there differ: no ties, though ranks of edges far apart may be equal. The result is that of a greedy colouring in the
-// order of ranks, whatever the order in which edges are listed or threads run.
+// An edge ranks by how far apart its bodies' slots are. What is built row by row has few such distances, and the edges of
+// one distance are chains x, x + d, x + 2 d ... that take turns: walls and pyramids get as few colours as a body has
+// neighbours. Ranks differ at a body: only the two edges of one chain have the same distance there, and they have not the
+// same turn. Ranks of edges far apart may be equal. The result is that of a greedy colouring in the order of ranks,
+// whatever the order in which edges are listed or threads run.
 
+// Leading bits of a distance that count as they are. The others are reversed: where distances fall along a chain of edges,
+// as from row to row of a pyramid, an edge must not wait for all before it.
+const uint k_distance_bits = 4u;
+
+inline uint scattered_distance(uint distance)
+{
+    uint length = uint(findMSB(distance)) + 1u;
+    if (length <= k_distance_bits) return distance;
+    uint tail = length - k_distance_bits;
+    uint leading = (distance >> tail) << tail;
+    return leading | (bitfieldReverse(distance - leading) >> (32u - tail));
+}
+
+// Of two different bodies, in either order. Not 0.
 inline uint edge_rank(uint body_a, uint body_b)
 {
-    uint x = (body_a ^ body_b) + 1u;
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    x ^= x >> 16;
-    return x; // not 0, as only 0 maps to 0
+    uint lower = min(body_a, body_b);
+    uint distance = max(body_a, body_b) - lower;
+    uint turn = (lower / distance) & 1u;
+    return 2u * scattered_distance(distance) + turn;
 }
 
 // The lowest colour that is free in both sets of used colours (64 bits in two words), or the overflow set.

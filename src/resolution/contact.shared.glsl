@@ -453,8 +453,10 @@ inline NormalSweep sweep_normals(NormalSweep s, ManifoldRows rows, NormalTarget 
     return next;
 }
 
-// A manifold this fast (m/s) is far from solved, and is solved to the end at once: one sweep alone would leave a box that
-// falls flat turning.
+// One sweep treats the points unlike: a tower of three that stood a little turned on itself was driven round by it, at
+// 3 cm/s for ever. Two come close enough. A manifold this fast (m/s) is far from solved, and is solved to the end at once:
+// a box that falls flat would be left turning.
+const uint k_sweeps = 2u;
 const float k_fast = 0.25f;
 const uint k_sweeps_of_fast = 8u;
 
@@ -466,7 +468,7 @@ inline ManifoldState solve_normals(ManifoldState s, ManifoldRows rows, NormalTar
     s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.hit_speed, sum4(sweep.impulse));
     vec4 v = sweep.velocity;
     float fastest = max(max(abs(v.x), abs(v.y)), max(abs(v.z), abs(v.w)));
-    uint sweeps = fastest > k_fast ? k_sweeps_of_fast : 1u;
+    uint sweeps = fastest > k_fast ? k_sweeps_of_fast : k_sweeps;
     for (uint i = 0u; i < sweeps; i += 1u)
         sweep = sweep_normals(sweep, rows, target);
     precise vec4 change = sweep.impulse - s.impulses.normal;
