@@ -49,22 +49,24 @@ TEST(LookAhead, the_next_tile_of_a_floor_bears_and_does_not_block) {
         for (const float overlap : {0.0f, 0.001f, 0.004f}) {
             const vec3 motion(0.1f, 0.0f, 0.0f);
             const BodyPose box = pose_at(vec3(-ahead, 0.5f - overlap, 0.0f));
-            const ContactGeometry g =
-                collide_moving_shapes(tile, box_of(vec3(0.5f)), box, box_of(vec3(0.5f)), motion, no_old_points(), k_margin);
+            const ContactGeometry g = collide_moving_shapes(tile, box_of(vec3(0.5f)), box, box_of(vec3(0.5f)), motion,
+                                                            no_old_points(), k_margin);
             EXPECT_NEAR(g.normal.y, 1.0f, 1e-6f) << ahead << ' ' << overlap;
             EXPECT_NEAR(g.separation, -overlap, 1e-6f) << ahead << ' ' << overlap;
         }
     }
-    const ContactGeometry ball = collide_moving_shapes(tile, box_of(vec3(0.5f)), pose_at(vec3(0.45f, 0.399f, 0.0f)),
-                                                       sphere_of(0.4f), vec3(0.1f, 0.0f, 0.0f), no_old_points(), k_margin);
+    const ContactGeometry ball =
+        collide_moving_shapes(tile, box_of(vec3(0.5f)), pose_at(vec3(0.45f, 0.399f, 0.0f)), sphere_of(0.4f),
+                              vec3(0.1f, 0.0f, 0.0f), no_old_points(), k_margin);
     EXPECT_NEAR(ball.normal.y, 1.0f, 1e-4f);
     EXPECT_NEAR(ball.separation, -0.001f, 1e-4f);
 }
 
 TEST(LookAhead, a_wall_blocks_and_does_not_bear) {
     const BodyPose wall = pose_at(vec3(1.0f, 0.0f, 0.0f)); // from x = 0.5
-    const ContactGeometry g = collide_moving_shapes(wall, box_of(vec3(0.5f)), pose_at(vec3(-0.08f, 0.3f, 0.0f)),
-                                                    box_of(vec3(0.5f)), vec3(0.1f, 0.0f, 0.0f), no_old_points(), k_margin);
+    const ContactGeometry g =
+        collide_moving_shapes(wall, box_of(vec3(0.5f)), pose_at(vec3(-0.08f, 0.3f, 0.0f)), box_of(vec3(0.5f)),
+                              vec3(0.1f, 0.0f, 0.0f), no_old_points(), k_margin);
     EXPECT_NEAR(g.normal.x, -1.0f, 1e-6f);
     EXPECT_NEAR(g.separation, 0.08f, 1e-6f) << "the gap of now, not that of the meeting";
     EXPECT_EQ(g.count, 4u);
