@@ -74,9 +74,7 @@ TEST_P(Momentum, is_kept_when_many_bodies_collide) {
     }
 }
 
-// Impulses act by the inertia of the step's start, while bodies turn in it: what is left of 10^-5 of the scale is about
-// 10^-4 (solver.md).
-TEST_P(Momentum, DISABLED_of_turning_is_kept_when_many_bodies_collide) {
+TEST_P(Momentum, of_turning_is_kept_when_many_bodies_collide) {
     for (const float restitution : {0.0f, 1.0f}) {
         SCOPED_TRACE(restitution);
         World world = make_world(weightless());

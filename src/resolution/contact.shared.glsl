@@ -377,6 +377,7 @@ struct PassTarget {
     Slip slip;
     float half_h; // s, half of the movement that follows the pass
     float old_share; // 1 where the impulses that a pass starts from are part of the step's sum already
+    bool moved_since; // those impulses acted where the bodies were before their last movement: in the relax pass
 };
 
 // A body pair and its manifold in the midst of a pass.
@@ -517,12 +518,20 @@ inline ManifoldState solve_friction(ManifoldState s, ManifoldRows rows, Friction
 
 // ---- passes ----
 
-// Brings the moment of the accumulated impulses up to the present slip.
-inline ManifoldState turn_by_slip(ManifoldState s, ManifoldRows rows, Slip slip)
+// The impulse of all rows together on B, without what the points' rows and the twist add as moments.
+inline vec3 whole_impulse(ManifoldImpulses impulses, ManifoldRows rows)
 {
-    vec3 friction = s.impulses.friction;
-    precise vec3 impulse = rows.normal * sum4(s.impulses.normal) + (rows.t1 * friction.x + rows.t2 * friction.y);
-    vec3 moment = cross3(slip.apart, impulse);
+    vec3 friction = impulses.friction;
+    precise vec3 impulse = rows.normal * sum4(impulses.normal) + (rows.t1 * friction.x + rows.t2 * friction.y);
+    return impulse;
+}
+
+// Brings the moment of the impulses up to the present slip. `before`: that of the impulses which acted before the bodies came
+// to where they are, and are not applied again.
+inline ManifoldState turn_by_slip(ManifoldState s, ManifoldRows rows, Slip slip, vec3 impulse_before, vec3 moment_before)
+{
+    precise vec3 impulse = whole_impulse(s.impulses, rows) - impulse_before;
+    precise vec3 moment = cross3(slip.apart, impulse) + moment_before;
     precise vec3 change = moment - s.impulses.moment;
     vec3 turn_a = multiply_inertia(rows.inertia_a, change);
     vec3 turn_b = multiply_inertia(rows.inertia_b, change);
@@ -538,10 +547,13 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
 {
     Slip slip = slip_after(target.slip, s.velocities, target.half_h);
     vec4 old = s.impulses.normal;
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    vec3 impulse_before = target.moved_since ? whole_impulse(s.impulses, rows) : none;
+    vec3 moment_before = target.moved_since ? s.impulses.moment : none;
     ManifoldState solved = solve_normals(solve_friction(s, rows, target.friction, slip), rows, target.normal, slip);
     precise vec4 total = solved.impulses.total + (solved.impulses.normal - old * target.old_share);
     solved.impulses.total = total;
-    return turn_by_slip(solved, rows, slip);
+    return turn_by_slip(solved, rows, slip, impulse_before, moment_before);
 }
 
 // The accumulated impulses again, to start from.

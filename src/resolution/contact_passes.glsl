@@ -84,6 +84,7 @@ PassTarget target_of_pass(uint pass, uint index)
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == k_solve ? 0.0 : 1.0;
+    target.moved_since = pass == k_relax;
     BodyDelta delta_a = deltas[body_a]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
     BodyDelta delta_b = deltas[body_b];
     target.slip = measure_slip(gap_at_start, traits, delta_a, delta_b);

@@ -27,6 +27,7 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     PassTarget target{};
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
+    target.moved_since = pass == ContactPass::Relax;
     target.slip = measure_slip(c.gap, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
     const Substep substep = make_substep(c.substeps, is_against_static(c.traits), p);
     const bool moves = pass != ContactPass::Relax && is_against_static(c.traits);
