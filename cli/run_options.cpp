@@ -50,6 +50,10 @@ std::string check_seconds(const std::string& given) {
     return fmt::format("'{}' is not a positive number", given);
 }
 
+std::string check_named(const std::string& given) {
+    return given.empty() ? "the name of the file is empty" : "";
+}
+
 /// What a file holds follows its option, not its name: another ending would be a lie.
 CLI::Validator ends_in(const std::string& ending) {
     return {[ending](const std::string& given) -> std::string {
@@ -120,10 +124,14 @@ void add_solver_options(CLI::App& command, SimulationOptions& options) {
 }
 
 void add_output_options(CLI::App& command, OutputOptions& options) {
-    command.add_option("--report", options.report, "Write counts, times and quality as JSON")->type_name("FILE.json");
+    command.add_option("--report", options.report, "Write counts, times and quality as JSON")
+        ->check(CLI::Validator(check_named, ""))
+        ->type_name("FILE.json");
     command.add_option("--state", options.state, "Write every body as it is at the end as JSON")
+        ->check(CLI::Validator(check_named, ""))
         ->type_name("FILE.json");
     command.add_option("--record", options.recording, "Write every pose of every step (docs/recording.md)")
+        ->check(CLI::Validator(check_named, ""))
         ->type_name("FILE");
     command.add_option("--video", options.video, "Write a video")->check(ends_in(".mp4"))->type_name("FILE.mp4");
     command.add_option("--image", options.image, "Write a picture of the end")

@@ -144,13 +144,13 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.body_count = population.slots;
     now.iterations = passes.iterations;
     now.relax = passes.relax;
-    now.by_island = population.slots <= k_island_bodies;
+    now.small = population.slots <= k_island_bodies;
     now.one_island = population.some_kinematic;
-    now.in_groups = now.by_island && placement.resolution->loops_freely();
+    now.in_groups = now.small && placement.resolution->loops_freely();
     now.bounces = population.some_bounce;
     now.least_substeps = passes.least_substeps;
-    now.most_substeps = now.by_island ? passes.most_substeps
-                                      : std::clamp(k_most_substeps_of_all, passes.least_substeps, passes.most_substeps);
+    now.most_substeps = now.small ? passes.most_substeps
+                                  : std::clamp(k_most_substeps_of_all, passes.least_substeps, passes.most_substeps);
     now.substep_capacity = std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps);
     return now;
 }

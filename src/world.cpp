@@ -13,6 +13,7 @@
 #include "device/gl/callers_context.h"
 #include "simulation.h"
 #include "state/formulas.h"
+#include "step_results.h"
 
 namespace talus {
 using namespace engine;
@@ -346,14 +347,8 @@ std::uint64_t World::step_count() const noexcept {
 
 std::vector<CollisionPair> World::collision_pairs() const {
     const CallersContext callers(impl_->own_context);
-    impl_->simulation.settle();
-    std::vector<Pair> pairs(impl_->simulation.report().pairs);
-    const std::array requests{ReadRequest{BufferId::Pairs, pairs.size() * sizeof(Pair), pairs.data()}};
-    impl_->simulation.detection_device().read(requests);
-    std::ranges::sort(pairs, {}, [](const Pair& pair) { return std::pair(pair.body_a, pair.body_b); });
     std::vector<CollisionPair> result;
-    result.reserve(pairs.size());
-    for (const Pair& pair : pairs)
+    for (const Pair& pair : read_pairs(impl_->simulation))
         if (impl_->both_present(pair.body_a, pair.body_b))
             result.push_back({impl_->table.id_of(pair.body_a), impl_->table.id_of(pair.body_b)});
     return result;
@@ -361,38 +356,16 @@ std::vector<CollisionPair> World::collision_pairs() const {
 
 std::vector<Contact> World::contacts() const {
     const CallersContext callers(impl_->own_context);
-    impl_->simulation.settle();
-    const uint pair_count = impl_->simulation.report().pairs;
-    const uint manifold_count = impl_->simulation.report().manifolds;
-    std::vector<Manifold> manifolds(pair_count);
-    std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
-    std::vector<ContactConstraint> constraints(manifold_count);
-    std::vector<ContactConstraintPoint> constraint_points(std::size_t{4} * manifold_count);
-    // The step's end has made its manifolds the old ones. Their impulses are what the next step starts from; those of
-    // this one are still with the constraints.
-    const std::array requests{
-        ReadRequest{BufferId::OldManifolds, manifolds.size() * sizeof(Manifold), manifolds.data()},
-        ReadRequest{BufferId::OldManifoldPoints, points.size() * sizeof(ManifoldPoint), points.data()},
-        ReadRequest{BufferId::Constraints, constraints.size() * sizeof(ContactConstraint), constraints.data()},
-        ReadRequest{BufferId::ConstraintPoints, constraint_points.size() * sizeof(ContactConstraintPoint),
-                    constraint_points.data()},
-    };
-    impl_->simulation.state_device().read(requests);
-    std::vector<float> impulses(points.size());
-    for (std::size_t i = 0; i < constraint_points.size(); ++i)
-        impulses[std::size_t{4} * constraints[i / 4].manifold + i % 4] =
-            constraint_points[i].total_impulse + constraint_points[i].hit_impulse;
+    const ContactRecords records = read_contacts(impl_->simulation);
     std::vector<Contact> result;
-    for (uint i = 0; i < pair_count; ++i) {
-        const Manifold& manifold = manifolds[i];
+    for (std::size_t i = 0; i < records.manifolds.size(); ++i) {
+        const Manifold& manifold = records.manifolds[i];
         if (manifold.point_count == 0 || !impl_->both_present(manifold.body_a, manifold.body_b)) continue;
         Contact contact{
             impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b), from_glm(manifold.normal), {}};
-        for (std::size_t k = 0; k < manifold.point_count; ++k) {
-            const std::size_t index = std::size_t{4} * i + k;
-            const ManifoldPoint& point = points[index];
-            contact.points.push_back({from_glm(point.position), point.separation, impulses[index]});
-        }
+        for (std::size_t k = 4 * i; k < 4 * i + manifold.point_count; ++k)
+            contact.points.push_back(
+                {from_glm(records.points[k].position), records.points[k].separation, records.impulses[k]});
         result.push_back(std::move(contact));
     }
     std::ranges::sort(result, {}, [](const Contact& c) { return std::pair(c.a.index, c.b.index); });

@@ -102,7 +102,7 @@ TEST_P(LongContactQuality, boxes_that_have_fallen_come_to_rest) {
         box.pose.rotation = turn({0.6f, 0.0f, 0.8f}, 0.1f * static_cast<float>(i));
         world.add(box);
     }
-    expect_stillness(world, 15); // they land as a tower, which rocks for twelve
+    expect_stillness(world, 12); // they land as a tower, which rocks for ten
 }
 
 // ---- a floor of many boxes ----
@@ -258,8 +258,9 @@ TEST_P(ContactQuality, a_heap_of_overlapping_boxes_does_not_explode) {
     for (int i = 0; i < 27; ++i)
         world.add(box_at({0.6f * static_cast<float>(i % 3), 0.5f + 0.6f * static_cast<float>(i / 9),
                           0.6f * static_cast<float>(i / 3 % 3)}));
-    // Each layer is pushed off the one below, so the top one at twice the push speed, and sideways besides.
-    const float fastest = 4.0f * world.settings().contact_push_speed;
+    // Each layer is pushed off the one below, so the top one at twice the push speed, and sideways besides: solver.md
+    // says 8 m/s.
+    const float fastest = 3.0f * world.settings().contact_push_speed;
     for (int i = 0; i < 240; ++i) {
         world.step();
         ASSERT_LT(largest_speed(world), fastest) << "step " << i;

@@ -99,6 +99,26 @@ TEST_P(Paths, a_work_group_for_each_island_gives_the_bits_of_many_launches) {
     EXPECT_GT(small.counter(engine::k_counter_contact_count), 50u) << "the scene must have contacts by now";
 }
 
+TEST_P(Paths, both_kernels_for_islands_give_the_bits_of_many_launches) {
+    Settings settings;
+    settings.max_substeps = settings.substeps;
+    for (const float restitution : {0.0f, 0.5f}) {
+        SCOPED_TRACE(restitution);
+        std::vector<BodyDefinition> bodies = bodies_of("pyramid:base=4");
+        for (BodyDefinition& body : bodies) {
+            body.material.restitution = restitution;
+            if (body.kind == BodyKind::Rigid) body.velocity.linear = {0.3f, -2.0f, 0.1f};
+        }
+        EngineRun groups(options_on(GetParam()), bodies, settings), launches(options_on(GetParam()), bodies, settings);
+        for (int i = 0; i < 20; ++i) {
+            groups.step_in_groups(restitution > 0.0f || i % 2 == 1);
+            launches.step_in_many_launches();
+            ASSERT_TRUE(groups.motion() == launches.motion()) << "step " << i;
+        }
+        EXPECT_GT(groups.counter(engine::k_counter_contact_count), 20u) << "the scene must have contacts by now";
+    }
+}
+
 TEST_P(Paths, a_kinematic_body_may_belong_to_several_islands) {
     std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.25f, 0.0f}, {9.0f, 0.5f, 2.0f}, BodyKind::Kinematic)};
     bodies.back().velocity = {{0.5f, 0.0f, 0.0f}, {0.0f, 0.3f, 0.0f}};

@@ -41,9 +41,16 @@ public:
         plan.substep_capacity = plan.most_substeps;
         plan.colour_capacity = engine::k_max_colours;
         plan.overflow = true;
-        engine::Device& device = simulation.state_device();
-        device.set_parameters(engine::make_parameters(settings, plan));
-        device.wait(engine::step({&device, &device}, plan, false));
+        step_as(plan);
+    }
+
+    /// A step as small worlds make it on hardware: one work group for each island, also on a renderer in software.
+    /// There the driver ends loops after 65,535 rounds, so few sub-steps and contacts are all that a test may ask for.
+    void step_in_groups(bool bounces) {
+        engine::StepPlan plan = simulation.plan_step(table.population());
+        plan.in_groups = true;
+        plan.bounces = bounces;
+        step_as(plan);
     }
 
     template <typename T> std::vector<T> read(engine::BufferId buffer, std::size_t count) const {
@@ -74,6 +81,13 @@ public:
     Settings settings;
     engine::BodyTable table;
     engine::Simulation simulation;
+
+private:
+    void step_as(const engine::StepPlan& plan) {
+        engine::Device& device = simulation.state_device();
+        device.set_parameters(engine::make_parameters(settings, plan));
+        device.wait(engine::step({&device, &device}, plan, false));
+    }
 };
 
 } // namespace talus::tests

@@ -341,19 +341,21 @@ TEST(Math, ranks_differ_at_a_body) {
         std::unordered_set<uint> ranks;
         for (uint other = 0; other < 200'000; ++other) {
             if (other == body) continue;
-            const uint rank = edge_rank(body, other);
+            const bool both_movable = other % 3 != 0;
+            const uint rank = edge_rank(body, other, both_movable);
             ASSERT_NE(rank, 0u);
-            ASSERT_EQ(rank, edge_rank(other, body));
+            ASSERT_EQ(rank, edge_rank(other, body, both_movable));
             ASSERT_TRUE(ranks.insert(rank).second) << body << ", " << other;
         }
     }
 }
 
-RC_GTEST_PROP(Math, ranks_of_any_two_edges_at_a_body_differ, (uint body, uint b, uint c)) {
-    constexpr uint k_slots = 1u << 31; // more than any device has memory for
+RC_GTEST_PROP(Math, ranks_of_any_two_edges_at_a_body_differ, (uint body, uint b, uint c, bool with_b, bool with_c)) {
+    constexpr uint k_slots = 1u << 30; // more than any device has memory for
     body %= k_slots, b %= k_slots, c %= k_slots;
     RC_PRE(body != b && body != c && b != c);
-    RC_ASSERT(edge_rank(body, b) != edge_rank(body, c));
+    RC_ASSERT(edge_rank(body, b, with_b) != edge_rank(body, c, with_c));
+    if (with_b && !with_c) RC_ASSERT(edge_rank(body, b, with_b) > edge_rank(body, c, with_c));
 }
 
 RC_GTEST_PROP(Math, the_first_free_colour_is_free_and_the_lowest, (uint low, uint high)) {

@@ -32,7 +32,7 @@ void broad_phase(Device& device, const StepPlan& plan) {
     if (plan.broad_phase == BroadPhase::Brute) {
         device.run({.kernel = update_aabbs, .items = plan.body_count});
         find_pairs(device, test_all_pairs, plan.body_count);
-    } else if (plan.by_island) { // a small world
+    } else if (plan.small) {
         device.run({.kernel = order_bodies, .items = 1});
         device.run({.kernel = sweep_in_group, .items = 1});
     } else {

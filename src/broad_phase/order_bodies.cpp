@@ -6,6 +6,8 @@
 
 namespace talus::engine {
 
+static_assert(k_island_bodies <= k_sort_in_group_keys);
+
 static void order_bodies_on_cpu(CpuState& state, const Launch& launch) {
     for (const Kernel* kernel : {&update_aabbs, &measure_spread, &choose_axis, &write_sort_keys})
         kernel->twin(state, launch);

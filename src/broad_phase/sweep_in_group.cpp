@@ -6,6 +6,8 @@
 
 namespace talus::engine {
 
+static_assert(k_island_bodies == 1024, "the kernel's invocations, one a body slot");
+
 static void sweep_in_group_on_cpu(CpuState& state, const Launch&) {
     constexpr uint count = 0, write = 1;
     sweep_pairs.twin(state, {.kernel = sweep_pairs, .args = {count}});

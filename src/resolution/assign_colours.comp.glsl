@@ -31,9 +31,9 @@ Edge load_edge(uint pair)
     Edge edge;
     edge.body[0] = manifolds[pair].body_a;
     edge.body[1] = manifolds[pair].body_b;
-    edge.rank = edge_rank(edge.body[0], edge.body[1]);
     for (uint end = 0u; end < 2u; ++end)
         edge.movable[end] = is_movable(shapes[edge.body[end]]);
+    edge.rank = edge_rank(edge.body[0], edge.body[1], edge.movable[0] && edge.movable[1]);
     return edge;
 }
 

@@ -17,7 +17,8 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
     std::vector<Edge> edges(state.counters[k_counter_uncoloured]);
     for (uint i = 0; i < edges.size(); ++i) {
         const uint pair = state.uncoloured[i];
-        edges[i] = {edge_rank(state.manifolds[pair].body_a, state.manifolds[pair].body_b), pair};
+        const uint a = state.manifolds[pair].body_a, b = state.manifolds[pair].body_b;
+        edges[i] = {edge_rank(a, b, is_movable(state.shapes[a]) && is_movable(state.shapes[b])), pair};
     }
     std::ranges::sort(edges, std::greater{}, &Edge::rank);
 

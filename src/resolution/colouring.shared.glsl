@@ -6,7 +6,8 @@
 // An edge ranks by how far apart its bodies' slots are. What is built row by row has few such distances, and the edges of
 // one distance are chains x, x + d, x + 2 d ... that take turns: walls and pyramids get as few colours as a body has
 // neighbours. Ranks differ at a body: only the two edges of one chain have the same distance there, and they have not the
-// same turn. Ranks of edges far apart may be equal. The result is that of a greedy colouring in the order of ranks,
+// same turn. Edges to bodies that cannot be pushed come last: what is solved last holds, and a light box under a heavy one
+// must not be pressed into the floor. Ranks of edges far apart may be equal. The result is that of a greedy colouring in the order of ranks,
 // whatever the order in which edges are listed or threads run.
 
 // Leading bits of a distance that count as they are. The others are reversed: where distances fall along a chain of edges,
@@ -22,13 +23,15 @@ inline uint scattered_distance(uint distance)
     return leading | (bitfieldReverse(distance - leading) >> (32u - tail));
 }
 
+const uint k_both_movable = 0x80000000u;
+
 // Of two different bodies, in either order. Not 0.
-inline uint edge_rank(uint body_a, uint body_b)
+inline uint edge_rank(uint body_a, uint body_b, bool both_movable)
 {
     uint lower = min(body_a, body_b);
     uint distance = max(body_a, body_b) - lower;
     uint turn = (lower / distance) & 1u;
-    return 2u * scattered_distance(distance) + turn;
+    return 2u * scattered_distance(distance) + turn + (both_movable ? k_both_movable : 0u);
 }
 
 // The lowest colour that is free in both sets of used colours (64 bits in two words), or the overflow set.

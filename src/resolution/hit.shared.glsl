@@ -95,7 +95,7 @@ inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 closing,
     rigid.mass = mass;
     rigid.offset = offset;
     rigid.lower = sweep.impulse;
-    rigid.hit_speed = closing;
+    rigid.hit_speed = closing; // not looked at
     for (uint i = 0u; i < k_sweeps_of_fast; i += 1u)
         sweep = sweep_normals(sweep, rows, rigid);
 

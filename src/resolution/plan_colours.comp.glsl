@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One group, an invocation for each colour: whether the colours and the sub-steps fit, and the launches of the
-// resolution. args.x: 1 where the world is solved island by island, so that neither needs launches.
+// resolution. args.x: 1 where a work group solves an island, so that neither needs launches.
 // Reads: ColourOffsets, Counters.
 // Writes: Counters, Dispatches.
 // Needs: a barrier after the sort of the manifolds.
@@ -17,16 +17,16 @@ layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 void main()
 {
     uint colour = gl_LocalInvocationID.x;
-    bool by_island = args.x == 1u;
+    bool in_groups = args.x == 1u;
     uint overflow_count = counters[k_counter_overflow_count];
     uint did_not_fit = counters[k_counter_did_not_fit];
-    if (!by_island && (counters[k_counter_colour_demand] > parameters.colour_capacity ||
+    if (!in_groups && (counters[k_counter_colour_demand] > parameters.colour_capacity ||
                        (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;
-    if (!by_island && counters[k_counter_substep_demand] > parameters.substep_capacity) did_not_fit |= k_fit_substeps;
+    if (!in_groups && counters[k_counter_substep_demand] > parameters.substep_capacity) did_not_fit |= k_fit_substeps;
 
     uint on = did_not_fit == 0u ? 1u : 0u;
-    uint count = by_island ? 0u : colour_offsets[colour + 1u] - colour_offsets[colour];
+    uint count = in_groups ? 0u : colour_offsets[colour + 1u] - colour_offsets[colour];
     dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     if (colour != 0u) return;
     dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);

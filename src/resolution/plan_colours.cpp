@@ -7,14 +7,14 @@
 namespace talus::engine {
 
 static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
-    const bool by_island = launch.args[0] == 1;
+    const bool in_groups = launch.args[0] == 1;
     const Array<uint>& offsets = state.colour_offsets;
     const Array<uint>& counters = state.counters;
     const uint overflow_count = counters[k_counter_overflow_count];
-    if (!by_island && (counters[k_counter_colour_demand] > state.parameters.colour_capacity ||
+    if (!in_groups && (counters[k_counter_colour_demand] > state.parameters.colour_capacity ||
                        (overflow_count > 0 && state.parameters.overflow_capacity == 0)))
         counters[k_counter_did_not_fit] |= k_fit_colours;
-    if (!by_island && counters[k_counter_substep_demand] > state.parameters.substep_capacity)
+    if (!in_groups && counters[k_counter_substep_demand] > state.parameters.substep_capacity)
         counters[k_counter_did_not_fit] |= k_fit_substeps;
 
     const uint on = counters[k_counter_did_not_fit] == 0 ? 1 : 0;
@@ -22,7 +22,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     state.dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
     state.dispatches[k_dispatch_islands] = groups_for(on * state.parameters.body_count, 1);
     for (uint colour = 0; colour < k_max_colours; ++colour) {
-        const uint count = by_island ? 0 : offsets[colour + 1] - offsets[colour];
+        const uint count = in_groups ? 0 : offsets[colour + 1] - offsets[colour];
         state.dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     }
     state.dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1);

@@ -17,7 +17,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_colours, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
     device.run({.kernel = assign_colours, .items = 1});
-    if (plan.by_island) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
+    if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
     sort_by_key(device, {.keys = BufferId::ManifoldKeys,
                          .values = BufferId::ManifoldOrder,
                          .keys_swap = BufferId::SortedManifoldKeys,
@@ -32,7 +32,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
 }
 
 void prepare(Device& device, const StepPlan& plan) {
-    device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.by_island}});
+    device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.small}});
     device.run({.kernel = prepare_contacts, .slot = k_dispatch_manifolds});
 }
 

@@ -75,7 +75,7 @@ const uint k_trial = 1000u;      // Manifold::idle_steps counts up from here in 
 const uint k_trial_steps = 32u;
 const uint k_halving_steps = 8u; // to half of that at a time
 
-// The numbers in use are apart by half or a third: least, 1.5 least, 2 least, 3 least, 4 least, ...
+// The numbers in use are apart by half or a third, up to the most: least, 1.5 least, 2 least, 3 least, 4 least, ...
 inline uint substep_level(uint level, uint least)
 {
     uint whole = least << (level / 2u);
@@ -96,10 +96,12 @@ inline uint wanted_substeps(float weights, Parameters p)
     return p.most_substeps;
 }
 
+const float k_most_weights = 1.0e6f; // with next to no gravity they would leave the range of a float
+
 // How many weights of the lighter body press a manifold together: both bodies carry that at least. `impulse` is that of
 // the whole step.
 inline float weights_on(float impulse, float inverse_mass_a, float inverse_mass_b, Parameters p)
 {
     precise float weights = impulse * max(inverse_mass_a, inverse_mass_b) * p.inverse_weight;
-    return weights;
+    return min(weights, k_most_weights);
 }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "step_results.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace talus::engine {
+
+template <typename T> static ReadRequest read_into(BufferId buffer, std::vector<T>& records) {
+    return {buffer, records.size() * sizeof(T), records.data()};
+}
+
+std::vector<Pair> read_pairs(Simulation& simulation) {
+    simulation.settle();
+    std::vector<Pair> pairs(simulation.report().pairs);
+    simulation.detection_device().read(std::array{read_into(BufferId::Pairs, pairs)});
+    std::ranges::sort(pairs, {}, [](const Pair& pair) { return std::pair(pair.body_a, pair.body_b); });
+    return pairs;
+}
+
+ContactRecords read_contacts(Simulation& simulation) {
+    simulation.settle();
+    const std::size_t pair_count = simulation.report().pairs, manifold_count = simulation.report().manifolds;
+    ContactRecords contacts{std::vector<Manifold>(pair_count), std::vector<ManifoldPoint>(4 * pair_count),
+                            std::vector<float>(4 * pair_count)};
+    std::vector<ContactConstraint> constraints(manifold_count);
+    std::vector<ContactConstraintPoint> constraint_points(4 * manifold_count);
+    // The step's end has made its manifolds the old ones. Their impulses are what the next step starts from; those of
+    // this one are still with the constraints.
+    simulation.state_device().read(std::array{
+        read_into(BufferId::OldManifolds, contacts.manifolds), read_into(BufferId::OldManifoldPoints, contacts.points),
+        read_into(BufferId::Constraints, constraints), read_into(BufferId::ConstraintPoints, constraint_points)});
+    for (std::size_t i = 0; i < constraint_points.size(); ++i)
+        contacts.impulses[std::size_t{4} * constraints[i / 4].manifold + i % 4] =
+            constraint_points[i].total_impulse + constraint_points[i].hit_impulse;
+    return contacts;
+}
+
+} // namespace talus::engine
