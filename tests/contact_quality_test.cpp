@@ -82,7 +82,7 @@ TEST_P(LongContactQuality, a_stack_of_turned_boxes_at_rest_is_still) {
 }
 
 TEST_P(LongContactQuality, a_wall_at_rest_is_still) {
-    // With one sweep over a manifold's points, and all bricks solved in the same order, it sways.
+    // Where all bricks are solved in the same order, and with one sweep over a manifold's points, it sways.
     World world = make_world();
     world.add(bodies_of("wall:width=20,height=20"));
     expect_stillness(world);

@@ -40,18 +40,9 @@ inline uint min(uint a, uint b) {
 inline uint max(uint a, uint b) {
     return a < b ? b : a;
 }
-/// Place of the lowest and of the highest bit that is set; -1 for 0.
+/// Place of the lowest bit that is set; -1 for 0.
 inline int findLSB(uint x) {
     return x != 0 ? std::countr_zero(x) : -1;
-}
-inline int findMSB(uint x) {
-    return static_cast<int>(std::bit_width(x)) - 1;
-}
-inline uint bitfieldReverse(uint x) {
-    uint reversed = 0;
-    for (uint bit = 0; bit < 32; ++bit)
-        reversed |= (x >> bit & 1u) << (31 - bit);
-    return reversed;
 }
 inline float abs(float x) {
     return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
