@@ -104,8 +104,8 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
                         0,
                         0};
     loads[slot] = {};
-    if (definition.kind == BodyKind::Kinematic) ++kinematic_count;
     if (material.restitution > 0.0f) ++bouncing_count;
+    if (definition.kind == BodyKind::Kinematic) ++kinematic_count;
     present[slot] = 1;
     ++present_count;
     mark(slot, k_dirty_all);
@@ -114,8 +114,8 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
 
 void BodyTable::remove(BodyId id) {
     const uint slot = id.index;
-    if (kind_of(slot) == BodyKind::Kinematic) --kinematic_count;
     if (properties[slot].restitution > 0.0f) --bouncing_count;
+    if (kind_of(slot) == BodyKind::Kinematic) --kinematic_count;
     shapes[slot].type = k_kind_absent << 8;
     velocities[slot] = {};
     present[slot] = 0;

@@ -258,8 +258,8 @@ TEST_P(ContactQuality, a_heap_of_overlapping_boxes_does_not_explode) {
     for (int i = 0; i < 27; ++i)
         world.add(box_at({0.6f * static_cast<float>(i % 3), 0.5f + 0.6f * static_cast<float>(i / 9),
                           0.6f * static_cast<float>(i / 3 % 3)}));
-    // Each layer is pushed off the one below, so the top one at twice the push speed, and sideways besides: up to 9 m/s are
-    // seen (solver.md).
+    // Each layer is pushed off the one below, so the top one at twice the push speed, and sideways besides: up to 9 m/s
+    // are seen (solver.md).
     const float fastest = 3.5f * world.settings().contact_push_speed;
     for (int i = 0; i < 240; ++i) {
         world.step();

@@ -23,6 +23,6 @@ void main()
     sorted_aabbs[place] = aabbs[sort_values[place]];
     uint key = sort_keys[place];
     uint key_before = place > 0u ? sort_keys[place - 1u] : 0u;
-    if (key >= k_large_key && key_before < k_large_key) sweep_axes[0].first_large = place;
-    if (key == k_absent_key && key_before < k_absent_key) sweep_axes[0].end = place;
+    if (is_first_from(k_large_key, key, key_before)) sweep_axes[0].first_large = place;
+    if (is_first_from(k_absent_key, key, key_before)) sweep_axes[0].end = place;
 }

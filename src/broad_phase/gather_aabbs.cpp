@@ -11,8 +11,8 @@ static void gather_aabbs_on_cpu(CpuState& state, const Launch&) {
         state.sorted_aabbs[place] = state.aabbs[state.sort_values[place]];
         const uint key = state.sort_keys[place];
         const uint key_before = place > 0 ? state.sort_keys[place - 1] : 0;
-        if (key >= k_large_key && key_before < k_large_key) state.sweep_axes[0].first_large = place;
-        if (key == k_absent_key && key_before < k_absent_key) state.sweep_axes[0].end = place;
+        if (is_first_from(k_large_key, key, key_before)) state.sweep_axes[0].first_large = place;
+        if (is_first_from(k_absent_key, key, key_before)) state.sweep_axes[0].end = place;
     });
 }
 

@@ -81,8 +81,8 @@ void main()
     for (uint place = me; place < body_count; place += gl_WorkGroupSize.x) {
         uint key = sorted_keys[place];
         uint key_before = place > 0u ? sorted_keys[place - 1u] : 0u;
-        if (key >= k_large_key && key_before < k_large_key) sweep_axis.first_large = place;
-        if (key == k_absent_key && key_before < k_absent_key) sweep_axis.end = place;
+        if (is_first_from(k_large_key, key, key_before)) sweep_axis.first_large = place;
+        if (is_first_from(k_absent_key, key, key_before)) sweep_axis.end = place;
         Aabb box = aabbs[old_places[place]];
         sorted_aabbs[place] = box;
         sort_keys[place] = key;

@@ -71,6 +71,9 @@ inline bool is_large(Aabb box, SweepAxis sweep)
 const uint k_large_key = 0xfffffffeu;
 const uint k_absent_key = 0xffffffffu;
 
+// Whether the first key of `bound` or above is this one. `key_before`: 0 for the first of all.
+inline bool is_first_from(uint bound, uint key, uint key_before) { return key >= bound && key_before < bound; }
+
 // A word that sorts as the box's lower end does: a float's bits with the sign turned. Large boxes come after all others,
 // and empty body slots last.
 inline uint sweep_key(Aabb box, SweepAxis sweep)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One group does for a small world what two launches of sweep_pairs and the scan between them do for a large one, with the
-// same results: all boxes fit into its shared memory.
+// One group does for a small world what two launches of sweep_pairs and the scan between them do for a large one, with
+// the same results: all boxes fit into its shared memory.
 // One invocation is a body in sorted order, as in sweep_pairs.
 // Reads: SortedAabbs, SweepAxes, SortValues.
 // Writes: PairCounts (scanned), Pairs, Counters (the demand).
@@ -59,7 +59,8 @@ uint sweep(uint place, Aabb box, SweepAxis sweep_axis, bool writing, uint offset
             continue;
         }
         if (is_candidate(box, shared_box(i))) {
-            if (writing && offset + found < parameters.pair_capacity) pairs[offset + found] = make_pair(body, sort_values[i]);
+            uint pair = offset + found;
+            if (writing && pair < parameters.pair_capacity) pairs[pair] = make_pair(body, sort_values[i]);
             found += 1u;
         }
         i += 1u;
@@ -67,7 +68,8 @@ uint sweep(uint place, Aabb box, SweepAxis sweep_axis, bool writing, uint offset
     return found;
 }
 
-// Sum of `value` over the invocations before this one. Every invocation must call it.
+// Sum of `value` over the invocations before this one. Every invocation must call it. As group_scan.glsl, whose two
+// rows would not fit beside the boxes: one row, and two barriers a round.
 uint sum_before(uint value)
 {
     uint me = gl_LocalInvocationID.x;

@@ -32,12 +32,13 @@ uint found = 0u;
 void test(uint other, Aabb other_box)
 {
     if (!is_candidate(box, other_box)) return;
-    if (args.x == 1u && offset + found < parameters.pair_capacity) pairs[offset + found] = make_pair(body, sort_values[other]);
+    uint pair = offset + found;
+    if (args.x == 1u && pair < parameters.pair_capacity) pairs[pair] = make_pair(body, sort_values[other]);
     found += 1u;
 }
 
-// Tests those of the places from `first` to `end` that come after the body's own, and stops at the first box that begins
-// beyond `limit`. Every invocation must call it.
+// Tests those of the places from `first` to `end` that come after the body's own, and stops at the first box that
+// begins beyond `limit`. Every invocation must call it.
 void sweep(uint first, uint end, uint axis, float limit, bool takes_part)
 {
     uint me = gl_LocalInvocationID.x;

@@ -14,7 +14,8 @@ const float k_axis_persistence = 1.0e-3f;
 const float k_parallel = 1.0e-3f;
 // A point that is not this much deeper than a corner of the contact's outline is not worth giving up the corner (m).
 const float k_depth_tie = 1.0e-3f;
-// A point that is this much farther above the other box than the deepest one, or than its surface, carries nothing soon (m).
+// A point that is this much farther above the other box than the deepest one, or than its surface, carries nothing soon
+// (m).
 const float k_near = 2.5e-3f;
 // What a point is worth, however large the area that it gives.
 const uint k_worth_far = 0u;
@@ -193,11 +194,11 @@ inline uint feature_of(Polygon polygon, uint i)
 // Which four points to keep of more (algorithm 8): the deepest, the farthest from it, the one that makes the largest
 // triangle with these, and the one that adds most area beyond its sides. Returns a bit a point.
 //
-// Differs from the thesis in two ways. Of points that are about as deep, the one farthest from the middle is taken first:
-// in a resting contact all are, and clipping leaves some amid a side; to start from one of those costs a corner, and a
-// tower rocks on the three that are left. And a larger area is no reason to give up what matters: the first two are of those
-// that carried load, and the others of those that are near. A box that stands on an edge has few of either, and rocks for
-// ever where one comes and goes.
+// Differs from the thesis in two ways. Of points that are about as deep, the one farthest from the middle is taken
+// first: in a resting contact all are, and clipping leaves some amid a side; to start from one of those costs a corner,
+// and a tower rocks on the three that are left. And a larger area is no reason to give up what matters: the first two
+// are of those that carried load, and the others of those that are near. A box that stands on an edge has few of
+// either, and rocks for ever where one comes and goes.
 inline uint reduce_points(Polygon polygon, OldPoints old)
 {
     precise float inverse_count = reciprocal(float(polygon.count));
@@ -238,7 +239,8 @@ inline uint reduce_points(Polygon polygon, OldPoints old)
     for (uint i = 0u; i < polygon.count; i += 1u) {
         vec3 p = polygon.points[i];
         // The area beyond a side is negative in the triangle's own orientation.
-        float inside = min(turn * triangle_area(a, b, p), min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
+        float inside = min(turn * triangle_area(a, b, p),
+                           min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
         fourth = better_pick(fourth, i, min(worths[i], k_worth_near), -inside);
     }
     return (1u << first.point) | (1u << second.point) | (1u << third.point) | (1u << fourth.point);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A sort by the invocations of one work group: a bitonic network over (key, old place). No two of those are equal, so the
-// result is that of a stable sort.
+// A sort by the invocations of one work group: a bitonic network over (key, old place). No two of those are equal, so
+// the result is that of a stable sort.
 
 shared uint sorted_keys[k_sort_in_group_keys];
 shared uint old_places[k_sort_in_group_keys];
@@ -27,8 +27,8 @@ uint sort_room(uint key_count)
 }
 
 // Before it, each of the `room` places has its key and its own number; what fills the room up comes behind every key,
-// even behind one with all bits set, as its place is later. Every invocation must call it, after a barrier; it ends with
-// one.
+// even behind one with all bits set, as its place is later. Every invocation must call it, after a barrier; it ends
+// with one.
 void sort_group(uint room)
 {
     uint me = gl_LocalInvocationID.x;

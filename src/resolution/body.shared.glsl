@@ -102,8 +102,8 @@ inline BodyWarmStart gather_impulses(BodyWarmStart warm, BodyVelocity velocity)
     return warm;
 }
 
-// Of a body that is hit `time` into the sub-step: leaves out what the hit has changed, which is no load to start from. The
-// sub-step will move the body by its velocity after the hit; until then it has had the one before.
+// Of a body that is hit `time` into the sub-step: leaves out what the hit has changed, which is no load to start from.
+// The sub-step will move the body by its velocity after the hit; until then it has had the one before.
 inline BodyWarmStart take_hit(BodyWarmStart warm, BodyVelocity before, BodyVelocity after, float time)
 {
     precise vec3 linear = warm.linear_before + (after.linear - before.linear);
@@ -174,8 +174,8 @@ inline BodyDelta integrate_position(BodyDelta delta, BodyWarmStart warm, BodyVel
     return delta;
 }
 
-// The pose at the end of the step. The delta turns the world, so it comes after the rotation that the body had. Where it
-// is now, it has come by itself.
+// The pose at the end of the step. The delta turns the world, so it comes after the rotation that the body had. Where
+// it is now, it has come by itself.
 inline BodyPose apply_delta(BodyPose pose, BodyDelta delta)
 {
     precise vec3 position = pose.position + delta.position;

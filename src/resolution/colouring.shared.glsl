@@ -5,8 +5,8 @@
 //
 // The rank of an edge is a one-to-one mix of a XOR b. At a body all edges lead to different other bodies, so all ranks
 // there differ: no ties, though ranks of edges far apart may be equal. Edges to bodies that cannot be pushed come last:
-// what is solved last holds, and a light box under a heavy one must not be pressed into the floor. The result is that of a
-// greedy colouring in the order of ranks, whatever the order in which edges are listed or threads run.
+// what is solved last holds, and a light box under a heavy one must not be pressed into the floor. The result is that
+// of a greedy colouring in the order of ranks, whatever the order in which edges are listed or threads run.
 
 const uint k_rank_mask = 0x3fffffffu; // slots are below 2^30
 // Of 1,500 numbers the one with the fewest colours over eight scenes of walls, pyramids and columns: 8 instead of 9.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The rows of a manifold, solved by sequential impulses (thesis, section 3.4): a normal row for each point; for all points
-// together two friction rows at their middle, and one against twisting about the normal.
+// The rows of a manifold, solved by sequential impulses (thesis, section 3.4): a normal row for each point; for all
+// points together two friction rows at their middle, and one against twisting about the normal.
 //
 // Differs from the thesis, which has two friction rows for each point: of the twelve rows of a face six were redundant,
 // and they were half of the arithmetic.
 //
-// Symbols: v, w linear and angular velocity; r anchor from the body's centre; d a row's direction; n normal from A to B;
-// t1, t2 tangents; K = J M^-1 J^T (equation 3.15 without the inversion); lambda accumulated impulse.
-// A vec4 holds a number for each of the four points; a point that is not there has mass 0, and so no impulse.
+// Symbols: v, w linear and angular velocity; r anchor from the body's centre; d a row's direction; n normal from A to
+// B; t1, t2 tangents; K = J M^-1 J^T (equation 3.15 without the inversion); lambda accumulated impulse. A vec4 holds a
+// number for each of the four points; a point that is not there has mass 0, and so no impulse.
 // Needs resolution/tangents.shared.glsl, body.shared.glsl and softness.shared.glsl.
 
 // ---- one row ----
@@ -322,8 +322,8 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
     return target;
 }
 
-// Deep overlap is pushed apart in all sub-steps, and the speed that it has got by that is taken back by the relax pass, up
-// to the impulses of the whole step.
+// Deep overlap is pushed apart in all sub-steps, and the speed that it has got by that is taken back by the relax pass,
+// up to the impulses of the whole step.
 const float k_fast_push = 0.2f; // m/s; what rests is pushed by a few centimetres a second
 
 inline float least_relaxed(ContactConstraintPoint point, vec3 n, float impulse, float total, Softness soft)
@@ -335,8 +335,8 @@ inline float least_relaxed(ContactConstraintPoint point, vec3 n, float impulse, 
 }
 
 // The friction rows: impulses stay inside an ellipsoid, with the force limit as its radius along the tangents and the
-// torque limit along the twist. A body that spins fast has little friction left against sliding. The surface is Howe and
-// Cutkosky's approximation (1996) of what points of friction spread over the face would do.
+// torque limit along the twist. A body that spins fast has little friction left against sliding. The surface is Howe
+// and Cutkosky's approximation (1996) of what points of friction spread over the face would do.
 struct FrictionTarget {
     vec3 radii;         // N s along t1 and t2, N m s about the normal
     vec3 inverse_radii; // 0 where the limit is too small to hold anything
@@ -418,8 +418,8 @@ struct NormalSweep {
     vec4 impulse;
 };
 
-// The normal rows one after the other (equation 3.14, accumulated and clamped). What each impulse does to the other rows
-// comes from the coupling, so that the bodies' velocities are touched once.
+// The normal rows one after the other (equation 3.14, accumulated and clamped). What each impulse does to the other
+// rows comes from the coupling, so that the bodies' velocities are touched once.
 inline NormalSweep sweep_normals(NormalSweep s, ManifoldRows rows, NormalTarget target)
 {
     vec4 old = s.impulse;
@@ -455,8 +455,8 @@ inline NormalSweep sweep_normals(NormalSweep s, ManifoldRows rows, NormalTarget 
 }
 
 // One sweep treats the points unlike: a tower of three that stood a little turned on itself was driven round by it, at
-// 3 cm/s for ever. Two come close enough. A manifold this fast (m/s) is far from solved, and is solved to the end at once:
-// a box that falls flat would be left turning.
+// 3 cm/s for ever. Two come close enough. A manifold this fast (m/s) is far from solved, and is solved to the end at
+// once: a box that falls flat would be left turning.
 const uint k_sweeps = 2u;
 const float k_fast = 0.25f;
 const uint k_sweeps_of_fast = 8u;
@@ -526,9 +526,10 @@ inline vec3 whole_impulse(ManifoldImpulses impulses, ManifoldRows rows)
     return impulse;
 }
 
-// Brings the moment of the impulses up to the present slip. `before`: that of the impulses which acted before the bodies came
-// to where they are, and are not applied again.
-inline ManifoldState turn_by_slip(ManifoldState s, ManifoldRows rows, Slip slip, vec3 impulse_before, vec3 moment_before)
+// Brings the moment of the impulses up to the present slip. `impulse_before` and `moment_before`: of what acted before
+// the bodies came to where they are, and is not applied again.
+inline ManifoldState turn_by_slip(ManifoldState s, ManifoldRows rows, Slip slip, vec3 impulse_before,
+                                  vec3 moment_before)
 {
     precise vec3 impulse = whole_impulse(s.impulses, rows) - impulse_before;
     precise vec3 moment = cross3(slip.apart, impulse) + moment_before;
@@ -662,8 +663,8 @@ inline ContactConstraintPoint no_point()
 
 // ---- from a constraint back to its manifold ----
 
-// What a point passes on: the last sub-step's impulse, taken for all of them. One that was hit in the last sub-steps alone
-// must not be pushed as hard in all of the next step: then it is the sum.
+// What a point passes on: the last sub-step's impulse, taken for all of them. One that was hit in the last sub-steps
+// alone must not be pushed as hard in all of the next step: then it is the sum.
 inline float impulse_of_step(ContactConstraintPoint point, ContactConstraint c)
 {
     precise float lasting = point.normal_impulse * float(c.substeps);
@@ -671,8 +672,8 @@ inline float impulse_of_step(ContactConstraintPoint point, ContactConstraint c)
     return max(lasting > twice ? point.total_impulse : lasting, 0.0f);
 }
 
-// Impulses of the whole step, and the sub-steps that their load asks for in the next one. The load is a running mean: an
-// impact is no reason for finer sub-steps.
+// Impulses of the whole step, and the sub-steps that their load asks for in the next one. The load is a running mean:
+// an impact is no reason for finer sub-steps.
 inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
                                float inverse_mass_b, Parameters p)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A hit: bodies that bounce, and close faster than the threshold. It is an event and no load: what it changes is not what
-// the next sub-step should start from. It is solved to the end at once, and each point that is hit leaves with e times the
-// speed that it came with; a chain of bodies passes it on from sub-step to sub-step.
+// A hit: bodies that bounce, and close faster than the threshold. It is an event and no load: what it changes is not
+// what the next sub-step should start from. It is solved to the end at once, and each point that is hit leaves with e
+// times the speed that it came with; a chain of bodies passes it on from sub-step to sub-step.
 // Needs resolution/contact.shared.glsl.
 
 // The rows as they are after some slip. A hit needs them: with others it would not keep the energy.
@@ -43,7 +43,8 @@ struct Hit {
     float time;              // s, within the sub-step
 };
 
-// Of what closes at `velocity`, only what touches within the sub-step bounces. `closing`: the closing_speed of the point.
+// Of what closes at `velocity`, only what touches within the sub-step bounces. `closing`: the closing_speed of the
+// point.
 inline bool bounces(float velocity, float mass, float closing, Parameters p)
 {
     return mass > 0.0f && -velocity > max(closing, p.restitution_threshold);

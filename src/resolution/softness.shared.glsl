@@ -61,7 +61,8 @@ inline Substep make_substep(uint substeps, bool against_static, Parameters p)
 // ---- how many ----
 
 // A load of N weights is that of a tower of N boxes. One of 1 m boxes buckles beyond N = 6 n^(2/3) at n sub-steps
-// (solver.md), so that n follows N^1.5; the linear part keeps short towers from sinking by more than a centimetre or two.
+// (solver.md), so that n follows N^1.5; the linear part keeps short towers from sinking by more than a centimetre or
+// two.
 const float k_substeps_against_sag = 0.5f;
 const float k_substeps_against_buckling = 0.095f;
 
@@ -69,8 +70,8 @@ const float k_substeps_against_buckling = 0.095f;
 // stiffness shakes what stands, which changes the load, and without patience a tower never came to rest.
 const uint k_patience = 64u;
 const float k_newest_weight = 0.125f; // share of the newest step in the mean load
-// What stands where the caller has put it is given the most until its load is known: with few sub-steps a tower would be
-// shaken while the load builds up.
+// What stands where the caller has put it is given the most until its load is known: with few sub-steps a tower would
+// be shaken while the load builds up.
 const uint k_trial = 1000u;      // Manifold::idle_steps counts up from here in a trial
 const uint k_trial_steps = 32u;
 const uint k_halving_steps = 8u; // to half of that at a time

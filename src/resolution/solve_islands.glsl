@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// One group is an island: all its sub-steps, with velocities in shared memory. A pass over a colour costs a barrier here
-// and a dispatch otherwise. The passes and their order are those of solve() in resolution.cpp, and so are the bits:
-// islands do not touch each other. There is a group for each body slot; those that lead no island end at once.
+// One group is an island: all its sub-steps, with velocities in shared memory. A pass over a colour costs a barrier
+// here and a dispatch otherwise. The passes and their order are those of solve() in resolution.cpp, and so are the
+// bits: islands do not touch each other. There is a group for each body slot; those that lead no island end at once.
 // An invocation keeps the manifold that it has in hand from pass to pass. Where there are more manifolds than
 // invocations it takes the next one before it waits for the others, so that nobody waits for memory.
 // Before this file the kernel defines k_bounces, as for contact_passes.glsl.
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
-// Writes: Velocities, Deltas, WarmStarts, Constraints and ConstraintPoints (impulses); Poses (flags) and Counters where a
-// body is frozen.
+// Writes: Velocities, Deltas, WarmStarts, Constraints and ConstraintPoints (impulses); Poses (flags) and Counters where
+// a body is frozen.
 // Needs: a barrier after prepare_contacts. At most k_island_bodies body slots.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -30,7 +30,8 @@ shared vec4 linear_and_inverse_mass[k_island_bodies];
 shared float angular[3u * k_island_bodies];
 shared Substep substep_of_moving;
 shared Substep substep_against_static;
-shared uint colour_offsets[k_max_colours + 2u]; // where the island's manifolds of each colour begin; the overflow set last
+// Where the island's manifolds of each colour begin; the overflow set last.
+shared uint colour_offsets[k_max_colours + 2u];
 
 BodyVelocity load_velocity(uint body)
 {
