@@ -70,10 +70,10 @@ struct Sample {
     Solid b() const { return solid(dvec3(pose_b.position - pose_a.position), pose_b.rotation, shape_b.half_extents); }
 
     ContactGeometry collide(float margin = k_margin) const {
-        return collide_shapes(pose_a, shape_a, pose_b, shape_b, no_old_points(), margin);
+        return collide_shapes(pose_a, shape_a, pose_b, shape_b, no_carriers(), margin);
     }
     ContactGeometry collide_swapped() const {
-        return collide_shapes(pose_b, shape_b, pose_a, shape_a, no_old_points(), k_margin);
+        return collide_shapes(pose_b, shape_b, pose_a, shape_a, no_carriers(), k_margin);
     }
     /// Cross products of nearly parallel edges are left out by the engine.
     bool has_parallel_edges() const {
@@ -306,7 +306,7 @@ TEST(BoxBox, reduction_keeps_the_deepest_of_any_polygon_and_no_more_than_four) {
             polygon.points[k] = vec3(std::cos(angle), samples.number(0.5f, 1.0f) * std::sin(angle), z);
             lowest = std::min(lowest, z);
         }
-        const uint kept = reduce_points(polygon, no_old_points());
+        const uint kept = reduce_points(polygon, no_carriers());
         ASSERT_LE(std::popcount(kept), 4);
         ASSERT_GE(std::popcount(kept), 3);
         float lowest_kept = 1e30f;
@@ -336,7 +336,7 @@ TEST(BoxBox, reduction_prefers_what_touches_to_what_is_above) {
             for (uint i = 0; i < count; ++i)
                 polygon.points[i].z = i == k || i == next ? -1e-4f : 2.0f * k_near;
             const uint edge = 1u << k | 1u << next;
-            EXPECT_EQ(reduce_points(polygon, no_old_points()) & edge, edge) << count << ", " << k;
+            EXPECT_EQ(reduce_points(polygon, no_carriers()) & edge, edge) << count << ", " << k;
         }
     }
 }
@@ -346,13 +346,11 @@ TEST(BoxBox, reduction_keeps_the_two_that_carried_the_load) {
         for (uint k = 0; k < count; ++k) {
             const Polygon polygon = flat_polygon(count);
             const uint next = (k + 1) % count;
-            OldPoints old = no_old_points();
-            old.count = 4;
-            for (uint i = 0; i < 4; ++i)
-                old.features[i] = feature_of(polygon, (k + i) % count);
-            old.impulses[0] = old.impulses[1] = 1.0f;
+            Carriers carriers = no_carriers();
+            carriers.features[0] = feature_of(polygon, k);
+            carriers.features[3] = feature_of(polygon, next);
             const uint edge = 1u << k | 1u << next;
-            const uint kept = reduce_points(polygon, old);
+            const uint kept = reduce_points(polygon, carriers);
             EXPECT_EQ(kept & edge, edge) << count << ", " << k;
             EXPECT_EQ(std::popcount(kept), 4) << count << ", " << k;
         }
@@ -394,7 +392,7 @@ TEST(BoxBox, crossed_edges_touch_at_one_point) {
 
 TEST(BoxBox, a_resting_box_keeps_its_axis_while_it_wobbles) {
     Samples samples;
-    OldPoints old = no_old_points();
+    Carriers old = no_carriers();
     int flips = 0, flips_without_memory = 0;
     uint last_free_axis = k_axis_none;
     for (int i = 0; i < 1'000; ++i) {

@@ -24,7 +24,8 @@ ContactGeometry three_points() {
 }
 
 OldPoints old_points(std::initializer_list<std::pair<vec3, uint>> points) {
-    OldPoints old = no_old_points();
+    OldPoints old{};
+    old.axis = k_axis_none;
     for (const auto& [anchor, feature] : points) {
         old.anchors[old.count] = anchor;
         old.features[old.count++] = feature;

@@ -158,6 +158,12 @@ inline float triangle_area(vec3 a, vec3 b, vec3 c)
     return area;
 }
 
+// Point i's worth, of all points' in two bits each.
+inline uint worth_of(uint worths, uint i)
+{
+    return (worths >> (2u * i)) & 3u;
+}
+
 // The best candidate so far.
 struct Pick {
     uint point;
@@ -184,11 +190,15 @@ inline Pick better_pick(Pick best, uint point, uint worth, float gain)
     return best;
 }
 
-// The point before, on the way round, has the edge that ends here.
+// The name of a point: the edge that ends there, and the one that begins there.
+inline uint feature_between(uint label_before, uint label)
+{
+    return label_before * 64u + label;
+}
+
 inline uint feature_of(Polygon polygon, uint i)
 {
-    uint before = i > 0u ? i - 1u : polygon.count - 1u;
-    return polygon.labels[before] * 64u + polygon.labels[i];
+    return feature_between(polygon.labels[i > 0u ? i - 1u : polygon.count - 1u], polygon.labels[i]);
 }
 
 // Which four points to keep of more (algorithm 8): the deepest, the farthest from it, the one that makes the largest
@@ -199,7 +209,7 @@ inline uint feature_of(Polygon polygon, uint i)
 // and a tower rocks on the three that are left. And a larger area is no reason to give up what matters: the first two
 // are of those that carried load, and the others of those that are near. A box that stands on an edge has few of
 // either, and rocks for ever where one comes and goes.
-inline uint reduce_points(Polygon polygon, OldPoints old)
+inline uint reduce_points(Polygon polygon, Carriers carriers)
 {
     precise float inverse_count = reciprocal(float(polygon.count));
     vec3 middle = vec3(0.0f, 0.0f, 0.0f);
@@ -209,16 +219,19 @@ inline uint reduce_points(Polygon polygon, OldPoints old)
         if (polygon.points[i].z < polygon.points[deepest].z) deepest = i;
     }
     precise float near = max(polygon.points[deepest].z, 0.0f) + k_near;
-    uint worths[8];
+    uint worths = 0u;
+    uint before = polygon.labels[polygon.count - 1u];
     for (uint i = 0u; i < polygon.count; i += 1u) {
-        worths[i] = polygon.points[i].z <= near ? k_worth_near : k_worth_far;
-        if (carried_load(old, feature_of(polygon, i))) worths[i] = k_worth_carrying;
+        uint worth = polygon.points[i].z <= near ? k_worth_near : k_worth_far;
+        if (carried_load(carriers, feature_between(before, polygon.labels[i]))) worth = k_worth_carrying;
+        worths |= worth << (2u * i);
+        before = polygon.labels[i];
     }
     Pick first = no_pick(deepest);
     for (uint i = 0u; i < polygon.count; i += 1u) {
         precise vec3 d = polygon.points[i] - middle;
         precise float square = d.x * d.x + d.y * d.y;
-        first = better_pick(first, i, worths[i], square);
+        first = better_pick(first, i, worth_of(worths, i), square);
     }
     precise float deeper = polygon.points[first.point].z - polygon.points[deepest].z;
     if (deeper > k_depth_tie) first.point = deepest;
@@ -227,12 +240,12 @@ inline uint reduce_points(Polygon polygon, OldPoints old)
     for (uint i = 0u; i < polygon.count; i += 1u) {
         precise vec3 d = polygon.points[i] - a;
         precise float square = d.x * d.x + d.y * d.y;
-        second = better_pick(second, i, worths[i], square);
+        second = better_pick(second, i, worth_of(worths, i), square);
     }
     vec3 b = polygon.points[second.point];
     Pick third = no_pick(first.point);
     for (uint i = 0u; i < polygon.count; i += 1u)
-        third = better_pick(third, i, min(worths[i], k_worth_near), abs(triangle_area(a, b, polygon.points[i])));
+        third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), abs(triangle_area(a, b, polygon.points[i])));
     vec3 c = polygon.points[third.point];
     float turn = triangle_area(a, b, c) < 0.0f ? -1.0f : 1.0f;
     Pick fourth = no_pick(first.point);
@@ -241,13 +254,13 @@ inline uint reduce_points(Polygon polygon, OldPoints old)
         // The area beyond a side is negative in the triangle's own orientation.
         float inside = min(turn * triangle_area(a, b, p),
                            min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
-        fourth = better_pick(fourth, i, min(worths[i], k_worth_near), -inside);
+        fourth = better_pick(fourth, i, min(worth_of(worths, i), k_worth_near), -inside);
     }
     return (1u << first.point) | (1u << second.point) | (1u << third.point) | (1u << fourth.point);
 }
 
-// The reference box is A; `axis` is its face's axis. `old`: the points that this axis had in the last step.
-inline ContactGeometry face_contact(BoxPair p, uint axis, OldPoints old, float max_separation)
+// The reference box is A; `axis` is its face's axis. `carriers`: of this axis.
+inline ContactGeometry face_contact(BoxPair p, uint axis, Carriers carriers, float max_separation)
 {
     uint axis_u = axis == 2u ? 0u : axis + 1u;
     uint axis_v = axis_u == 2u ? 0u : axis_u + 1u;
@@ -275,7 +288,7 @@ inline ContactGeometry face_contact(BoxPair p, uint axis, OldPoints old, float m
 
     ContactGeometry g = no_contact();
     g.normal = frame.z;
-    uint kept = polygon.count > 4u ? reduce_points(polygon, old) : 0xffu;
+    uint kept = polygon.count > 4u ? reduce_points(polygon, carriers) : 0xffu;
     for (uint i = 0u; i < polygon.count; i += 1u) {
         float separation = polygon.points[i].z;
         if (((kept >> i) & 1u) != 0u && separation <= max_separation && g.count < 4u) {
@@ -340,9 +353,9 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
     return g;
 }
 
-inline ContactGeometry collide_boxes(BoxPair p, OldPoints old, float max_separation)
+inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, float max_separation)
 {
-    AxisQuery query = query_axes(p, old.axis);
+    AxisQuery query = query_axes(p, carriers.axis);
     if (query.separation > max_separation) return no_contact();
     ContactGeometry g;
     if (query.axis >= 6u) {
@@ -358,8 +371,8 @@ inline ContactGeometry collide_boxes(BoxPair p, OldPoints old, float max_separat
             q.half_b = p.half_a;
             q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
         }
-        if (old.axis != query.axis) old.count = 0u;
-        g = face_contact(q, b_is_reference ? query.axis - 3u : query.axis, old, max_separation);
+        if (carriers.axis != query.axis) carriers = no_carriers();
+        g = face_contact(q, b_is_reference ? query.axis - 3u : query.axis, carriers, max_separation);
         if (b_is_reference) g = swap_bodies(g, q.offset);
     }
     g.axis = query.axis;

@@ -43,27 +43,39 @@ uint find_old_manifold(Pair pair)
     return k_none;
 }
 
+Carriers read_carriers(uint old_index)
+{
+    Carriers carriers = no_carriers();
+    carriers.axis = old_manifolds[old_index].axis;
+    uint count = old_manifolds[old_index].point_count;
+    for (uint i = 0u; i < count; ++i) {
+        uint point = 4u * old_index + i;
+        if (old_manifold_points[point].normal_impulse > 0.0)
+            carriers.features[i] = old_manifold_points[point].feature_id;
+    }
+    return carriers;
+}
+
+OldPoints read_old_points(uint old_index)
+{
+    OldPoints old;
+    old.axis = old_manifolds[old_index].axis;
+    old.count = old_manifolds[old_index].point_count;
+    for (uint i = 0u; i < old.count; ++i) {
+        old.anchors[i] = old_manifold_points[4u * old_index + i].anchor_a;
+        old.features[i] = old_manifold_points[4u * old_index + i].feature_id;
+    }
+    return old;
+}
+
 void main()
 {
     uint pair_index = item_index();
     if (pair_index >= counters[k_counter_pair_count]) return;
     Pair pair = pairs[pair_index];
-
     uint old_index = find_old_manifold(pair);
-    uint old_colour = k_no_colour;
-    Manifold old;
-    OldPoints old_points = no_old_points();
-    if (old_index != k_none) {
-        old = old_manifolds[old_index];
-        old_colour = old.colour;
-        old_points.axis = old.axis;
-        old_points.count = old.point_count;
-        for (uint i = 0u; i < old.point_count; ++i) {
-            old_points.anchors[i] = old_manifold_points[4u * old_index + i].anchor_a;
-            old_points.features[i] = old_manifold_points[4u * old_index + i].feature_id;
-            old_points.impulses[i] = old_manifold_points[4u * old_index + i].normal_impulse;
-        }
-    }
+    Carriers carriers = no_carriers();
+    if (old_index != k_none) carriers = read_carriers(old_index);
 
     BodyPose pose_a = poses[pair.body_a];
     BodyPose pose_b = poses[pair.body_b];
@@ -71,18 +83,22 @@ void main()
     precise vec3 motion = (velocities[pair.body_b].linear - velocities[pair.body_a].linear) * parameters.dt;
     precise float max_separation = parameters.speculative_distance + length3(motion);
     ContactGeometry g = collide_moving_shapes(pose_a, shapes[pair.body_a], pose_b, shapes[pair.body_b], motion,
-                                              old_points, max_separation);
-    Manifold manifold = make_manifold(pair, g, old_colour, properties[pair.body_a], properties[pair.body_b]);
-    if (old_index != k_none)
-        manifold = carry_over(manifold, old, parameters);
-    else if (is_placed(pose_a, shapes[pair.body_a]) && is_placed(pose_b, shapes[pair.body_b]))
-        manifold = begin_trial(manifold, parameters);
-    manifolds[pair_index] = manifold;
+                                              carriers, max_separation);
 
-    PointMatch match = match_points(g, old_points);
+    // The rest of the last manifold is read here, as registers are short in the collision.
+    Manifold manifold = make_manifold(pair, g, properties[pair.body_a], properties[pair.body_b]);
+    PointMatch match = no_match();
+    if (old_index != k_none) {
+        manifold = carry_over(manifold, old_manifolds[old_index], parameters);
+        match = match_points(g, read_old_points(old_index));
+    } else if (is_placed(pose_a, shapes[pair.body_a]) && is_placed(pose_b, shapes[pair.body_b])) {
+        manifold = begin_trial(manifold, parameters);
+    }
+    manifolds[pair_index] = manifold;
     for (uint i = 0u; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, pose_a.position, offset, i);
-        if (match.old_index[i] != k_none) point.normal_impulse = old_points.impulses[match.old_index[i]];
+        uint old_point = match.old_index[i];
+        if (old_point != k_none) point.normal_impulse = old_manifold_points[4u * old_index + old_point].normal_impulse;
         manifold_points[4u * pair_index + i] = point;
     }
 }

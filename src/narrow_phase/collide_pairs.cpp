@@ -18,24 +18,33 @@ uint find_old_manifold(const CpuState& state, Pair pair) {
     }
 }
 
+Carriers read_carriers(const CpuState& state, uint old_index) {
+    const Manifold& manifold = state.old_manifolds[old_index];
+    const ManifoldPoint* const points = &state.old_manifold_points[std::size_t{4} * old_index];
+    Carriers carriers = no_carriers();
+    carriers.axis = manifold.axis;
+    for (uint i = 0; i < manifold.point_count; ++i)
+        if (points[i].normal_impulse > 0.0f) carriers.features[i] = points[i].feature_id;
+    return carriers;
+}
+
+OldPoints read_old_points(const CpuState& state, uint old_index) {
+    const Manifold& manifold = state.old_manifolds[old_index];
+    const ManifoldPoint* const points = &state.old_manifold_points[std::size_t{4} * old_index];
+    OldPoints old{};
+    old.axis = manifold.axis;
+    old.count = manifold.point_count;
+    for (uint i = 0; i < old.count; ++i) {
+        old.anchors[i] = points[i].anchor_a;
+        old.features[i] = points[i].feature_id;
+    }
+    return old;
+}
+
 void collide_pair(CpuState& state, uint pair_index) {
     const Pair pair = state.pairs[pair_index];
-
     const uint old_index = find_old_manifold(state, pair);
-    uint old_colour = k_no_colour;
-    OldPoints old_points = no_old_points();
-    if (old_index != k_none) {
-        const Manifold& old = state.old_manifolds[old_index];
-        const ManifoldPoint* const old_records = &state.old_manifold_points[std::size_t{4} * old_index];
-        old_colour = old.colour;
-        old_points.axis = old.axis;
-        old_points.count = old.point_count;
-        for (uint i = 0; i < old.point_count; ++i) {
-            old_points.anchors[i] = old_records[i].anchor_a;
-            old_points.features[i] = old_records[i].feature_id;
-            old_points.impulses[i] = old_records[i].normal_impulse;
-        }
-    }
+    const Carriers carriers = old_index != k_none ? read_carriers(state, old_index) : no_carriers();
 
     const BodyPose& pose_a = state.poses[pair.body_a];
     const BodyPose& pose_b = state.poses[pair.body_b];
@@ -44,18 +53,22 @@ void collide_pair(CpuState& state, uint pair_index) {
         (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
     const float max_separation = state.parameters.speculative_distance + length3(motion);
     const ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b,
-                                                    state.shapes[pair.body_b], motion, old_points, max_separation);
-    Manifold& manifold = state.manifolds[pair_index];
-    manifold = make_manifold(pair, g, old_colour, state.properties[pair.body_a], state.properties[pair.body_b]);
-    if (old_index != k_none)
-        manifold = carry_over(manifold, state.old_manifolds[old_index], state.parameters);
-    else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b]))
-        manifold = begin_trial(manifold, state.parameters);
+                                                    state.shapes[pair.body_b], motion, carriers, max_separation);
 
-    const PointMatch match = match_points(g, old_points);
+    Manifold manifold = make_manifold(pair, g, state.properties[pair.body_a], state.properties[pair.body_b]);
+    PointMatch match = no_match();
+    if (old_index != k_none) {
+        manifold = carry_over(manifold, state.old_manifolds[old_index], state.parameters);
+        match = match_points(g, read_old_points(state, old_index));
+    } else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b])) {
+        manifold = begin_trial(manifold, state.parameters);
+    }
+    state.manifolds[pair_index] = manifold;
     for (uint i = 0; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, pose_a.position, offset, i);
-        if (match.old_index[i] != k_none) point.normal_impulse = old_points.impulses[match.old_index[i]];
+        const uint old_point = match.old_index[i];
+        if (old_point != k_none)
+            point.normal_impulse = state.old_manifold_points[std::size_t{4} * old_index + old_point].normal_impulse;
         state.manifold_points[std::size_t{4} * pair_index + i] = point;
     }
 }

@@ -56,33 +56,23 @@ inline ContactGeometry swap_bodies(ContactGeometry g, vec3 offset)
     return r;
 }
 
-// The points of a pair's last manifold.
-struct OldPoints {
-    uint axis; // its separating axis
-    uint count;
-    vec3 anchors[4]; // from A's centre
-    uint features[4];
-    float impulses[4]; // N s along the normal
+// All that a collision asks of a pair's last manifold: its axis, and the points that carried load.
+struct Carriers {
+    uint axis;
+    uint features[4]; // k_none where a point did not, or was not there
 };
 
-inline OldPoints no_old_points()
+inline Carriers no_carriers()
 {
-    OldPoints old;
-    old.axis = k_axis_none;
-    old.count = 0u;
-    for (uint i = 0u; i < 4u; i += 1u) {
-        old.anchors[i] = vec3(0.0f, 0.0f, 0.0f);
-        old.features[i] = 0u;
-        old.impulses[i] = 0.0f;
-    }
-    return old;
+    Carriers carriers;
+    carriers.axis = k_axis_none;
+    for (uint i = 0u; i < 4u; i += 1u)
+        carriers.features[i] = k_none;
+    return carriers;
 }
 
-// Whether the point that has this name on the same axis carried load.
-inline bool carried_load(OldPoints old, uint feature)
+inline bool carried_load(Carriers carriers, uint feature)
 {
-    bool carried = false;
-    for (uint i = 0u; i < 4u; i += 1u)
-        carried = carried || (i < old.count && old.features[i] == feature && old.impulses[i] > 0.0f);
-    return carried;
+    return carriers.features[0] == feature || carriers.features[1] == feature || carriers.features[2] == feature ||
+           carriers.features[3] == feature;
 }

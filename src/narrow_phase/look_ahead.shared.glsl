@@ -27,7 +27,7 @@ inline bool is_broad(ContactGeometry g)
 
 // `motion`: of B as seen from A, in this step (m). Rotation is left out of account.
 inline ContactGeometry collide_moving_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
-                                             vec3 motion, OldPoints old, float max_separation)
+                                             vec3 motion, Carriers carriers, float max_separation)
 {
     vec3 start = pose_b.position;
     ContactGeometry now = no_contact();
@@ -37,7 +37,7 @@ inline ContactGeometry collide_moving_shapes(BodyPose pose_a, BodyShape shape_a,
     for (uint i = 0u; i < 4u; i += 1u) {
         time = next;
         pose_b.position = add_scaled(start, motion, time);
-        met = collide_shapes(pose_a, shape_a, pose_b, shape_b, old, max_separation);
+        met = collide_shapes(pose_a, shape_a, pose_b, shape_b, carriers, max_separation);
         if (i == 0u) now = met;
         if (met.separation <= 0.0f && is_broad(met)) break;
         float closing = -dot3(met.normal, motion);

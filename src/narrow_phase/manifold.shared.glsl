@@ -4,7 +4,7 @@
 
 // One entry a pair of shapes. A new shape adds its entries here.
 inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
-                                      OldPoints old, float max_separation)
+                                      Carriers carriers, float max_separation)
 {
     precise vec3 offset = pose_b.position - pose_a.position;
     uint type_a = shape_a.type & 255u;
@@ -16,7 +16,7 @@ inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPo
         p.half_a = shape_a.half_extents;
         p.half_b = shape_b.half_extents;
         p.offset = offset;
-        return collide_boxes(p, old, max_separation);
+        return collide_boxes(p, carriers, max_separation);
     }
     if (type_a == k_shape_box) {
         return collide_box_sphere(rotation_axes(pose_a.rotation), shape_a.half_extents, shape_b.half_extents.x, offset,
@@ -59,18 +59,33 @@ inline float combine_restitution(BodyProperties a, BodyProperties b)
 // flicker when a vertex lies on a side plane, and stacks topple where that costs the impulse.
 const float k_anchor_match = 0.04f;
 
+// The points of a pair's last manifold.
+struct OldPoints {
+    uint axis; // its separating axis
+    uint count;
+    vec3 anchors[4]; // from A's centre
+    uint features[4];
+};
+
 struct PointMatch {
     uint old_index[4]; // for each new point the old one, or k_none
 };
+
+inline PointMatch no_match()
+{
+    PointMatch match;
+    for (uint i = 0u; i < 4u; i += 1u)
+        match.old_index[i] = k_none;
+    return match;
+}
 
 // Feature ids say the same only on the same separating axis.
 inline PointMatch match_points(ContactGeometry g, OldPoints old)
 {
     bool same_axis = g.axis == old.axis;
-    PointMatch match;
+    PointMatch match = no_match();
     uint taken = 0u;
     for (uint i = 0u; i < 4u; i += 1u) {
-        match.old_index[i] = k_none;
         for (uint k = 0u; k < old.count; k += 1u) {
             bool is_free = ((taken >> k) & 1u) == 0u && match.old_index[i] == k_none;
             if (same_axis && i < g.count && is_free && old.features[k] == g.features[i]) {
@@ -119,13 +134,13 @@ inline Manifold begin_trial(Manifold manifold, Parameters p)
     return manifold;
 }
 
-inline Manifold make_manifold(Pair pair, ContactGeometry g, uint old_colour, BodyProperties a, BodyProperties b)
+inline Manifold make_manifold(Pair pair, ContactGeometry g, BodyProperties a, BodyProperties b)
 {
     Manifold manifold;
     manifold.body_a = pair.body_a;
     manifold.body_b = pair.body_b;
     manifold.point_count = g.count;
-    manifold.colour = old_colour;
+    manifold.colour = k_no_colour;
     manifold.normal = g.normal;
     manifold.axis = g.axis;
     manifold.friction = combine_friction(a, b);
@@ -139,10 +154,11 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, uint old_colour, Bod
     return manifold;
 }
 
-// Gives a new manifold the friction and the load of the last step's. Friction is carried as a vector: the tangents of
+// Gives a new manifold the colour, the friction and the load of the last step's. Friction is carried as a vector: the tangents of
 // two normals that are nearly the same may lie far apart.
 inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)
 {
+    manifold.colour = old.colour;
     Tangents t = contact_tangents(manifold.normal);
     Tangents old_t = contact_tangents(old.normal);
     precise vec3 sideways = old_t.t1 * old.tangent_impulse_1 + old_t.t2 * old.tangent_impulse_2;
