@@ -39,7 +39,6 @@ constexpr std::array k_pair_buffers{
 constexpr std::array k_point_buffers{
     BufferId::OldManifoldPoints,
     BufferId::ManifoldPoints,
-    BufferId::ConstraintPoints,
 };
 
 uint with_headroom(uint demand) {

@@ -25,15 +25,15 @@ ContactRecords read_contacts(Simulation& simulation) {
     ContactRecords contacts{std::vector<Manifold>(pair_count), std::vector<ManifoldPoint>(4 * pair_count),
                             std::vector<float>(4 * pair_count)};
     std::vector<ContactConstraint> constraints(manifold_count);
-    std::vector<ContactConstraintPoint> constraint_points(4 * manifold_count);
     // The step's end has made its manifolds the old ones. Their impulses are what the next step starts from; those of
     // this one are still with the constraints.
-    simulation.state_device().read(std::array{
-        read_into(BufferId::OldManifolds, contacts.manifolds), read_into(BufferId::OldManifoldPoints, contacts.points),
-        read_into(BufferId::Constraints, constraints), read_into(BufferId::ConstraintPoints, constraint_points)});
-    for (std::size_t i = 0; i < constraint_points.size(); ++i)
-        contacts.impulses[std::size_t{4} * constraints[i / 4].manifold + i % 4] =
-            constraint_points[i].total_impulse + constraint_points[i].hit_impulse;
+    simulation.state_device().read(std::array{read_into(BufferId::OldManifolds, contacts.manifolds),
+                                              read_into(BufferId::OldManifoldPoints, contacts.points),
+                                              read_into(BufferId::Constraints, constraints)});
+    for (const ContactConstraint& c : constraints)
+        for (int i = 0; i < 4; ++i)
+            contacts.impulses[std::size_t{4} * c.manifold + static_cast<std::size_t>(i)] =
+                c.total_impulse[i] + c.hit_impulse[i];
     return contacts;
 }
 

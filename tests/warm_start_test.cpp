@@ -90,8 +90,8 @@ TEST(WarmStart, friction_is_carried_as_a_vector) {
         fresh.normal = next;
         const Manifold carried = carry_over(fresh, old, Parameters{});
         const auto sideways = [](const Manifold& m) {
-            const Tangents t = contact_tangents(m.normal);
-            return t.t1 * m.tangent_impulse_1 + t.t2 * m.tangent_impulse_2;
+            const Axes frame = contact_frame(m.normal);
+            return frame.x * m.tangent_impulse_1 + frame.y * m.tangent_impulse_2;
         };
         ASSERT_EQ(carried.twist_impulse, 3.0f);
         const vec3 before = sideways(old);

@@ -244,8 +244,10 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
     }
     vec3 b = polygon.points[second.point];
     Pick third = no_pick(first.point);
-    for (uint i = 0u; i < polygon.count; i += 1u)
-        third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), abs(triangle_area(a, b, polygon.points[i])));
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        float area = abs(triangle_area(a, b, polygon.points[i]));
+        third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), area);
+    }
     vec3 c = polygon.points[third.point];
     float turn = triangle_area(a, b, c) < 0.0f ? -1.0f : 1.0f;
     Pick fourth = no_pick(first.point);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From two bodies to a manifold: the table of shape pairs, the material, and the impulses of the last step.
-// Needs resolution/tangents.shared.glsl and resolution/softness.shared.glsl.
+// Needs resolution/contact_frame.shared.glsl and resolution/softness.shared.glsl.
 
 // One entry a pair of shapes. A new shape adds its entries here.
 inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
@@ -154,16 +154,16 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, BodyProperties a, Bo
     return manifold;
 }
 
-// Gives a new manifold the colour, the friction and the load of the last step's. Friction is carried as a vector: the tangents of
-// two normals that are nearly the same may lie far apart.
+// Gives a new manifold the colour, the friction and the load of the last step's. Friction is carried as a vector: the
+// tangents of two normals that are nearly the same may lie far apart.
 inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)
 {
     manifold.colour = old.colour;
-    Tangents t = contact_tangents(manifold.normal);
-    Tangents old_t = contact_tangents(old.normal);
-    precise vec3 sideways = old_t.t1 * old.tangent_impulse_1 + old_t.t2 * old.tangent_impulse_2;
-    manifold.tangent_impulse_1 = dot3(sideways, t.t1);
-    manifold.tangent_impulse_2 = dot3(sideways, t.t2);
+    Axes frame = contact_frame(manifold.normal);
+    Axes old_frame = contact_frame(old.normal);
+    precise vec3 sideways = old_frame.x * old.tangent_impulse_1 + old_frame.y * old.tangent_impulse_2;
+    manifold.tangent_impulse_1 = dot3(sideways, frame.x);
+    manifold.tangent_impulse_2 = dot3(sideways, frame.y);
     manifold.twist_impulse = old.twist_impulse;
     manifold.weights = old.weights;
     manifold.substeps = min(old.substeps, p.most_substeps); // which the caller may have lowered

@@ -1,228 +1,66 @@
 // SPDX-License-Identifier: MIT
-// The rows of a manifold, solved by sequential impulses (thesis, section 3.4): a normal row for each point; for all
-// points together two friction rows at their middle, and one against twisting about the normal.
+// A pass over a manifold: its rows, solved by sequential impulses (thesis, section 3.4).
 //
 // Differs from the thesis, which has two friction rows for each point: of the twelve rows of a face six were redundant,
 // and they were half of the arithmetic.
-//
-// Symbols: v, w linear and angular velocity; r anchor from the body's centre; d a row's direction; n normal from A to
-// B; t1, t2 tangents; K = J M^-1 J^T (equation 3.15 without the inversion); lambda accumulated impulse. A vec4 holds a
-// number for each of the four points; a point that is not there has mass 0, and so no impulse.
-// Needs resolution/tangents.shared.glsl, body.shared.glsl and softness.shared.glsl.
-
-// ---- one row ----
-
-const uint k_traits_of_b = 4u; // bits that B's traits are shifted by in a constraint
-
-inline bool is_against_static(uint traits)
-{
-    return (traits & (traits >> k_traits_of_b) & k_trait_movable) == 0u;
-}
-
-struct Row {
-    vec3 arm_a; // r x d: the part of the row's Jacobian that the angular velocity meets (equation 3.6)
-    vec3 arm_b;
-    vec3 turn_a; // I^-1 (r x d): what a unit of impulse does to the angular velocity (equation 3.13)
-    vec3 turn_b;
-};
-
-inline Row make_row(vec3 d, vec3 r_a, vec3 r_b, BodyInertia inertia_a, BodyInertia inertia_b)
-{
-    Row row;
-    row.arm_a = cross3(r_a, d);
-    row.arm_b = cross3(r_b, d);
-    row.turn_a = multiply_inertia(inertia_a, row.arm_a);
-    row.turn_b = multiply_inertia(inertia_b, row.arm_b);
-    return row;
-}
-
-// J V of equation 3.3; `linear` is d · (v_b - v_a).
-inline float row_velocity(Row row, float linear, vec3 w_a, vec3 w_b)
-{
-    precise float velocity = linear + (dot3(row.arm_b, w_b) - dot3(row.arm_a, w_a));
-    return velocity;
-}
-
-// J_i M^-1 J_j^T of two rows along the same direction: what a unit of impulse in one does to the velocity of the other.
-inline float row_coupling(Row i, Row j, float inverse_masses)
-{
-    precise float k = inverse_masses + (dot3(i.arm_a, j.turn_a) + dot3(i.arm_b, j.turn_b));
-    return k;
-}
-
-// 1 / K: the effective mass (equation 3.15).
-inline float row_mass(Row row, float inverse_masses)
-{
-    float k = row_coupling(row, row, inverse_masses);
-    return k > 0.0f ? reciprocal(k) : 0.0f;
-}
-
-// ---- the rows of a manifold ----
-
-// All that stays the same in the passes of a step.
-struct ManifoldRows {
-    vec3 normal;
-    vec3 t1;
-    vec3 t2;
-    Row point_0; // along the normal
-    Row point_1;
-    Row point_2;
-    Row point_3;
-    Row tangent_1; // at the middle of the points
-    Row tangent_2;
-    vec3 twist_a; // I^-1 n
-    vec3 twist_b;
-    vec3 coupling_0; // of point 0 with points 1, 2, 3
-    vec3 coupling_1; // of point 1 with points 2 and 3; of point 2 with point 3
-    vec4 normal_mass;
-    vec3 friction_mass; // t1, t2, twist
-    vec4 lever;         // m, of each point from their middle
-    float friction;
-    float restitution;
-    BodyInertia inertia_a;
-    BodyInertia inertia_b;
-};
+// Needs resolution/manifold_rows.shared.glsl and softness.shared.glsl.
 
 // The impulses that a manifold has accumulated in a sub-step.
 struct ManifoldImpulses {
     vec4 normal;   // N s
     vec4 total;    // N s, the sum over all sub-steps
-    vec3 friction; // N s along t1 and t2, N m s about the normal
+    vec3 friction; // N s along the frame's x and y, N m s about its z
     vec3 moment;   // N m s, see Slip
 };
 
-inline ManifoldRows couple_points(ManifoldRows rows, float inverse_masses)
-{
-    rows.coupling_0 = vec3(row_coupling(rows.point_0, rows.point_1, inverse_masses),
-                           row_coupling(rows.point_0, rows.point_2, inverse_masses),
-                           row_coupling(rows.point_0, rows.point_3, inverse_masses));
-    rows.coupling_1 = vec3(row_coupling(rows.point_1, rows.point_2, inverse_masses),
-                           row_coupling(rows.point_1, rows.point_3, inverse_masses),
-                           row_coupling(rows.point_2, rows.point_3, inverse_masses));
-    return rows;
-}
-
-inline ManifoldRows make_rows(ContactConstraint c, ContactConstraintPoint p0, ContactConstraintPoint p1,
-                              ContactConstraintPoint p2, ContactConstraintPoint p3, BodyInertia inertia_a,
-                              BodyInertia inertia_b)
-{
-    Tangents t = contact_tangents(c.normal);
-    ManifoldRows rows;
-    rows.normal = c.normal;
-    rows.t1 = t.t1;
-    rows.t2 = t.t2;
-    rows.point_0 = make_row(c.normal, p0.anchor_a, p0.anchor_b, inertia_a, inertia_b);
-    rows.point_1 = make_row(c.normal, p1.anchor_a, p1.anchor_b, inertia_a, inertia_b);
-    rows.point_2 = make_row(c.normal, p2.anchor_a, p2.anchor_b, inertia_a, inertia_b);
-    rows.point_3 = make_row(c.normal, p3.anchor_a, p3.anchor_b, inertia_a, inertia_b);
-    rows.tangent_1 = make_row(t.t1, c.centre_a, c.centre_b, inertia_a, inertia_b);
-    rows.tangent_2 = make_row(t.t2, c.centre_a, c.centre_b, inertia_a, inertia_b);
-    rows.twist_a = multiply_inertia(inertia_a, c.normal);
-    rows.twist_b = multiply_inertia(inertia_b, c.normal);
-    rows.normal_mass = vec4(p0.normal_mass, p1.normal_mass, p2.normal_mass, p3.normal_mass);
-    rows.friction_mass = vec3(c.tangent_mass_1, c.tangent_mass_2, c.twist_mass);
-    rows.lever = vec4(p0.lever, p1.lever, p2.lever, p3.lever);
-    rows.friction = c.friction;
-    rows.restitution = c.restitution;
-    rows.inertia_a = inertia_a;
-    rows.inertia_b = inertia_b;
-    return couple_points(rows, c.inverse_masses);
-}
-
-inline ManifoldImpulses make_impulses(ContactConstraint c, ContactConstraintPoint p0, ContactConstraintPoint p1,
-                                      ContactConstraintPoint p2, ContactConstraintPoint p3)
+inline ManifoldImpulses make_impulses(ContactConstraint c)
 {
     ManifoldImpulses impulses;
-    impulses.normal = vec4(p0.normal_impulse, p1.normal_impulse, p2.normal_impulse, p3.normal_impulse);
-    impulses.total = vec4(p0.total_impulse, p1.total_impulse, p2.total_impulse, p3.total_impulse);
-    impulses.friction = vec3(c.tangent_impulse_1, c.tangent_impulse_2, c.twist_impulse);
+    impulses.normal = c.normal_impulse;
+    impulses.total = c.total_impulse;
+    impulses.friction = c.friction_impulse;
     impulses.moment = c.moment;
     return impulses;
 }
 
-struct VelocityPair {
-    BodyVelocity a;
-    BodyVelocity b;
-};
-
-// Applies normal impulses to B, and their opposites to A (equation 3.13).
-inline VelocityPair apply_normals(VelocityPair v, ManifoldRows rows, vec4 impulse)
-{
-    precise vec3 push = rows.normal * sum4(impulse);
-    precise vec3 turn_a = rows.point_0.turn_a * impulse.x + rows.point_1.turn_a * impulse.y +
-                          (rows.point_2.turn_a * impulse.z + rows.point_3.turn_a * impulse.w);
-    precise vec3 turn_b = rows.point_0.turn_b * impulse.x + rows.point_1.turn_b * impulse.y +
-                          (rows.point_2.turn_b * impulse.z + rows.point_3.turn_b * impulse.w);
-    precise vec3 linear_a = v.a.linear - push * v.a.inverse_mass;
-    precise vec3 linear_b = v.b.linear + push * v.b.inverse_mass;
-    precise vec3 angular_a = v.a.angular - turn_a;
-    precise vec3 angular_b = v.b.angular + turn_b;
-    v.a.linear = linear_a;
-    v.b.linear = linear_b;
-    v.a.angular = angular_a;
-    v.b.angular = angular_b;
-    return v;
-}
-
-// Applies friction impulses: x and y along the tangents, z about the normal.
-inline VelocityPair apply_friction(VelocityPair v, ManifoldRows rows, vec3 impulse)
-{
-    precise vec3 sideways = rows.t1 * impulse.x + rows.t2 * impulse.y;
-    precise vec3 turn_a =
-        rows.tangent_1.turn_a * impulse.x + rows.tangent_2.turn_a * impulse.y + rows.twist_a * impulse.z;
-    precise vec3 turn_b =
-        rows.tangent_1.turn_b * impulse.x + rows.tangent_2.turn_b * impulse.y + rows.twist_b * impulse.z;
-    precise vec3 linear_a = v.a.linear - sideways * v.a.inverse_mass;
-    precise vec3 linear_b = v.b.linear + sideways * v.b.inverse_mass;
-    precise vec3 angular_a = v.a.angular - turn_a;
-    precise vec3 angular_b = v.b.angular + turn_b;
-    v.a.linear = linear_a;
-    v.b.linear = linear_b;
-    v.a.angular = angular_a;
-    v.b.angular = angular_b;
-    return v;
-}
-
 // ---- separations ----
 
-// What a manifold's points share of their present separation.
-struct Approach {
-    float distance; // m: how far the bodies' centres have come apart along the normal since the start of the step
-    vec3 normal_a;  // the normal as seen by A before it turned
-    vec3 normal_b;
-};
-
+// Of the four points now: what they were, and how far the anchors have moved since along the normal (equation 3.16). To
+// turn the frame back into each body, as that was before it turned, is cheaper than to turn every anchor.
 // `traits`: the constraint's.
-inline Approach measure_approach(vec3 n, uint traits, BodyDelta a, BodyDelta b)
+inline vec4 current_separations(ManifoldRows rows, vec4 base, uint traits, BodyDelta a, BodyDelta b)
 {
+    Meeting m = rows.meeting;
+    vec3 n = m.frame.z;
+    vec3 normal_a = (traits & k_trait_round) != 0u ? n : rotate_back(a.rotation, n);
+    vec3 normal_b = (traits & (k_trait_round << k_traits_of_b)) != 0u ? n : rotate_back(b.rotation, n);
     precise vec3 moved = b.position - a.position;
-    Approach approach;
-    approach.distance = dot3(moved, n);
-    approach.normal_a = (traits & k_trait_round) != 0u ? n : rotate_back(a.rotation, n);
-    approach.normal_b = (traits & (k_trait_round << k_traits_of_b)) != 0u ? n : rotate_back(b.rotation, n);
-    return approach;
+    precise vec3 turned = normal_b - normal_a;
+    precise float distance = dot3(moved, n) + (dot3(m.centre_b, normal_b) - dot3(m.centre_a, normal_a));
+    precise vec4 turning = rows.x * dot3(turned, m.frame.x) + rows.y * dot3(turned, m.frame.y);
+    precise vec4 separations = base + (distance + turning);
+    return separations;
 }
 
-// Separation now: what it was, and how far the anchors have moved since along the normal (equation 3.16). To turn the
-// normal back once is cheaper than to turn every anchor.
-inline float current_separation(ContactConstraintPoint point, Approach approach)
+// At the start of the step, where nothing has moved.
+inline vec4 first_separations(ManifoldRows rows, vec4 base)
 {
-    precise float separation = point.base_separation + approach.distance + dot3(point.anchor_b, approach.normal_b) -
-                               dot3(point.anchor_a, approach.normal_a);
-    return separation;
+    precise vec3 apart = rows.meeting.centre_b - rows.meeting.centre_a;
+    precise vec4 separations = base + dot3(apart, rows.meeting.frame.z);
+    return separations;
 }
 
 // ---- slip ----
 //
-// A pair's anchors met in one point when the contact was found, and have moved apart since. An impulse that acts on the
-// two bodies at two points changes their angular momentum, so both are taken to be touched in one point: half way, or
-// where the body is that can be pushed, if the other cannot. The rows' arms stay as they are; what is missing, for all
-// rows alike, is the slip's part of the velocity, and the moment of the impulses about the anchors.
+// The middle of the points was one place when the contact was found, and has moved apart since as the bodies carry it.
+// An impulse that acts on the two bodies at two places changes their angular momentum, so both are taken to be touched
+// at one: half way, or where the body is that can be pushed, if the other cannot. K stays as it is; what is missing is
+// the slip's part of the velocity, and the moment of the impulses about the bodies' own middles.
 
 struct Slip {
-    vec3 apart;  // m, from A's anchors to B's
-    float share_a; // of `apart` that A's arms are too short by
-    float share_b; // that B's arms are too long by
+    vec3 apart;    // m, from A's middle to B's
+    float share_a; // of `apart` that A's arm is too short by
+    float share_b; // that B's arm is too long by
 };
 
 // `gap` and `traits`: the constraint's.
@@ -245,12 +83,19 @@ inline Slip slip_after(Slip slip, VelocityPair v, float time)
     return slip;
 }
 
-// v_b - v_a without the rows' arms.
-inline vec3 relative_velocity(VelocityPair v, Slip slip)
+// V as the rows see it.
+inline SpatialVector relative_velocity(VelocityPair v, Meeting m, Slip slip)
 {
-    precise vec3 spin = v.a.angular * slip.share_a + v.b.angular * slip.share_b;
-    precise vec3 velocity = (v.b.linear - v.a.linear) - cross3(spin, slip.apart);
-    return velocity;
+    vec3 w_a = v.a.angular;
+    vec3 w_b = v.b.angular;
+    precise vec3 moving = v.b.linear - v.a.linear;
+    precise vec3 spin = w_a * slip.share_a + w_b * slip.share_b;
+    precise vec3 linear = velocity_between(moving, w_a, w_b, m.centre_a, m.centre_b) - cross3(spin, slip.apart);
+    precise vec3 angular = w_b - w_a;
+    SpatialVector relative;
+    relative.linear = to_local(m.frame, linear);
+    relative.angular = to_local(m.frame, angular);
+    return relative;
 }
 
 // ---- what the rows of a pass aim at ----
@@ -326,25 +171,33 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
 // up to the impulses of the whole step.
 const float k_fast_push = 0.2f; // m/s; what rests is pushed by a few centimetres a second
 
-inline float least_relaxed(ContactConstraintPoint point, vec3 n, float impulse, float total, Softness soft)
+inline float least_of_point(float first_separation, float impulse, float total, Softness soft)
 {
-    precise float separation = point.base_separation + (dot3(point.anchor_b, n) - dot3(point.anchor_a, n));
-    precise float push = -soft.bias_rate * separation;
+    precise float push = -soft.bias_rate * first_separation;
     precise float least = impulse - total;
     return push > k_fast_push ? min(least, 0.0f) : 0.0f;
+}
+
+inline vec4 least_relaxed(ManifoldRows rows, vec4 base, ManifoldImpulses impulses, Softness soft)
+{
+    vec4 first = first_separations(rows, base);
+    vec4 impulse = impulses.normal;
+    vec4 total = impulses.total;
+    return vec4(least_of_point(first.x, impulse.x, total.x, soft), least_of_point(first.y, impulse.y, total.y, soft),
+                least_of_point(first.z, impulse.z, total.z, soft), least_of_point(first.w, impulse.w, total.w, soft));
 }
 
 // The friction rows: impulses stay inside an ellipsoid, with the force limit as its radius along the tangents and the
 // torque limit along the twist. A body that spins fast has little friction left against sliding. The surface is Howe
 // and Cutkosky's approximation (1996) of what points of friction spread over the face would do.
 struct FrictionTarget {
-    vec3 radii;         // N s along t1 and t2, N m s about the normal
+    vec3 radii;         // N s along the frame's x and y, N m s about its z
     vec3 inverse_radii; // 0 where the limit is too small to hold anything
     vec3 sliding_mass;
 };
 
 const float k_least_friction = 1.0e-20f; // N s, and N m s: their inverses would leave the range of a float
-const float k_most_radii = 1.0e15f;      // that an impulse is taken to lie outside its limit: its square is still a float
+const float k_most_radii = 1.0e15f;      // that an impulse may lie outside its limit: its square is still a float
 
 // A manifold that slides takes masses in the ratio of the squared limits, and none above its own. Then what is left on
 // the rim points against the motion, as the ellipsoid's normal does. With the rows' own masses a box lost 8 % of its
@@ -389,16 +242,6 @@ struct ManifoldState {
 
 // ---- normal rows ----
 
-// J V of the normal rows.
-inline vec4 normal_velocities(VelocityPair v, ManifoldRows rows, Slip slip)
-{
-    vec3 w_a = v.a.angular;
-    vec3 w_b = v.b.angular;
-    float linear = dot3(relative_velocity(v, slip), rows.normal);
-    return vec4(row_velocity(rows.point_0, linear, w_a, w_b), row_velocity(rows.point_1, linear, w_a, w_b),
-                row_velocity(rows.point_2, linear, w_a, w_b), row_velocity(rows.point_3, linear, w_a, w_b));
-}
-
 // A point that closes fast is no hit where the load alone could have made it fast: a light body under a heavy one is
 // thrown about within a sub-step.
 inline bool is_hit(float velocity, float mass, float speed, float load)
@@ -418,8 +261,8 @@ struct NormalSweep {
     vec4 impulse;
 };
 
-// The normal rows one after the other (equation 3.14, accumulated and clamped). What each impulse does to the other
-// rows comes from the coupling, so that the bodies' velocities are touched once.
+// The normal rows one after the other (equation 3.14, accumulated and clamped), each with what the ones before have
+// done to its velocity.
 inline NormalSweep sweep_normals(NormalSweep s, ManifoldRows rows, NormalTarget target)
 {
     vec4 old = s.impulse;
@@ -461,21 +304,19 @@ const uint k_sweeps = 2u;
 const float k_fast = 0.25f;
 const uint k_sweeps_of_fast = 8u;
 
-inline ManifoldState solve_normals(ManifoldState s, ManifoldRows rows, NormalTarget target, Slip slip)
+inline uint sweeps_at(vec4 velocity)
 {
-    NormalSweep sweep;
-    sweep.velocity = normal_velocities(s.velocities, rows, slip);
-    sweep.impulse = s.impulses.normal;
-    s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.hit_speed, sum4(sweep.impulse));
-    vec4 v = sweep.velocity;
+    vec4 v = velocity;
     float fastest = max(max(abs(v.x), abs(v.y)), max(abs(v.z), abs(v.w)));
-    uint sweeps = fastest > k_fast ? k_sweeps_of_fast : k_sweeps;
+    return fastest > k_fast ? k_sweeps_of_fast : k_sweeps;
+}
+
+inline NormalSweep solve_normals(NormalSweep sweep, ManifoldRows rows, NormalTarget target)
+{
+    uint sweeps = sweeps_at(sweep.velocity);
     for (uint i = 0u; i < sweeps; i += 1u)
         sweep = sweep_normals(sweep, rows, target);
-    precise vec4 change = sweep.impulse - s.impulses.normal;
-    s.impulses.normal = sweep.impulse;
-    s.velocities = apply_normals(s.velocities, rows, change);
-    return s;
+    return sweep;
 }
 
 // ---- friction rows ----
@@ -499,205 +340,44 @@ inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Friction
     return multiply3(on_sphere, target.radii);
 }
 
-// One pass over the friction rows. They come before the normal rows, as keeping bodies apart matters more and the last
-// row wins.
-inline ManifoldState solve_friction(ManifoldState s, ManifoldRows rows, FrictionTarget target, Slip slip)
-{
-    vec3 w_a = s.velocities.a.angular;
-    vec3 w_b = s.velocities.b.angular;
-    vec3 apart = relative_velocity(s.velocities, slip);
-    precise vec3 spin = w_b - w_a;
-    vec3 velocity = vec3(row_velocity(rows.tangent_1, dot3(apart, rows.t1), w_a, w_b),
-                         row_velocity(rows.tangent_2, dot3(apart, rows.t2), w_a, w_b), dot3(spin, rows.normal));
-    vec3 impulse = solve_friction_rows(s.impulses.friction, rows.friction_mass, velocity, target);
-    precise vec3 change = impulse - s.impulses.friction;
-    s.impulses.friction = impulse;
-    s.velocities = apply_friction(s.velocities, rows, change);
-    return s;
-}
-
 // ---- passes ----
 
-// The impulse of all rows together on B, without what the points' rows and the twist add as moments.
-inline vec3 whole_impulse(ManifoldImpulses impulses, ManifoldRows rows)
-{
-    vec3 friction = impulses.friction;
-    precise vec3 impulse = rows.normal * sum4(impulses.normal) + (rows.t1 * friction.x + rows.t2 * friction.y);
-    return impulse;
-}
-
-// Brings the moment of the impulses up to the present slip. `impulse_before` and `moment_before`: of what acted before
-// the bodies came to where they are, and is not applied again.
-inline ManifoldState turn_by_slip(ManifoldState s, ManifoldRows rows, Slip slip, vec3 impulse_before,
-                                  vec3 moment_before)
-{
-    precise vec3 impulse = whole_impulse(s.impulses, rows) - impulse_before;
-    precise vec3 moment = cross3(slip.apart, impulse) + moment_before;
-    precise vec3 change = moment - s.impulses.moment;
-    vec3 turn_a = multiply_inertia(rows.inertia_a, change);
-    vec3 turn_b = multiply_inertia(rows.inertia_b, change);
-    precise vec3 angular_a = s.velocities.a.angular - turn_a * slip.share_a;
-    precise vec3 angular_b = s.velocities.b.angular - turn_b * slip.share_b;
-    s.impulses.moment = moment;
-    s.velocities.a.angular = angular_a;
-    s.velocities.b.angular = angular_b;
-    return s;
-}
-
+// Friction comes before the normal rows, as keeping bodies apart matters more and the last row wins.
 inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
 {
     Slip slip = slip_after(target.slip, s.velocities, target.half_h);
-    vec4 old = s.impulses.normal;
-    vec3 none = vec3(0.0f, 0.0f, 0.0f);
-    vec3 impulse_before = target.moved_since ? whole_impulse(s.impulses, rows) : none;
-    vec3 moment_before = target.moved_since ? s.impulses.moment : none;
-    ManifoldState solved = solve_normals(solve_friction(s, rows, target.friction, slip), rows, target.normal, slip);
-    precise vec4 total = solved.impulses.total + (solved.impulses.normal - old * target.old_share);
-    solved.impulses.total = total;
-    return turn_by_slip(solved, rows, slip, impulse_before, moment_before);
+    ManifoldImpulses old = s.impulses;
+    SpatialVector velocity = relative_velocity(s.velocities, rows.meeting, slip);
+    vec3 sliding = friction_velocities(velocity);
+    vec3 friction = solve_friction_rows(old.friction, rows.friction_mass, sliding, target.friction);
+    precise vec3 friction_change = friction - old.friction;
+
+    NormalSweep sweep;
+    sweep.velocity = normal_velocities(after_friction(velocity, rows, friction_change), rows);
+    sweep.impulse = old.normal;
+    s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.normal.hit_speed, sum4(sweep.impulse));
+    vec4 normal = solve_normals(sweep, rows, target.normal).impulse;
+    precise vec4 normal_change = normal - old.normal;
+    precise vec4 total = old.total + (normal - old.normal * target.old_share);
+
+    // The moment of all impulses for the present slip, but for what acted before the bodies came to where they are.
+    SpatialVector change = whole_impulse(rows, normal_change, friction_change);
+    vec3 acting = target.moved_since ? change.linear : vec3(friction.x, friction.y, sum4(normal));
+    vec3 kept = target.moved_since ? old.moment : vec3(0.0f, 0.0f, 0.0f);
+    precise vec3 moment = kept + cross3(slip.apart, to_world(rows.meeting.frame, acting));
+    precise vec3 moment_change = moment - old.moment;
+    s.velocities = apply_impulse(s.velocities, rows.meeting, change, scale3(moment_change, slip.share_a),
+                                 scale3(moment_change, -slip.share_b));
+    s.impulses.normal = normal;
+    s.impulses.total = total;
+    s.impulses.friction = friction;
+    s.impulses.moment = moment;
+    return s;
 }
 
 // The accumulated impulses again, to start from.
 inline VelocityPair warm_start_manifold(VelocityPair v, ManifoldRows rows, ManifoldImpulses impulses)
 {
-    return apply_normals(apply_friction(v, rows, impulses.friction), rows, impulses.normal);
-}
-
-// ---- from a manifold to a constraint ----
-
-// Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
-// cannot be pushed: the other's number holds.
-inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, float inverse_masses,
-                                          BodyInertia inertia_a, BodyInertia inertia_b)
-{
-    bool pushes_a = (inertia_a.traits & k_trait_movable) != 0u;
-    bool pushes_b = (inertia_b.traits & k_trait_movable) != 0u;
-    ContactConstraint c;
-    c.body_a = manifold.body_a;
-    c.body_b = manifold.body_b;
-    c.manifold = manifold_index;
-    c.point_count = manifold.point_count;
-    c.normal = manifold.normal;
-    c.friction = manifold.friction;
-    c.centre_a = vec3(0.0f, 0.0f, 0.0f);
-    c.tangent_mass_1 = 0.0f;
-    c.centre_b = vec3(0.0f, 0.0f, 0.0f);
-    c.tangent_mass_2 = 0.0f;
-    c.restitution = manifold.restitution;
-    c.traits = inertia_a.traits | (inertia_b.traits << k_traits_of_b);
-    c.twist_mass = 0.0f;
-    c.inverse_masses = inverse_masses;
-    c.substeps = max(max(pushes_a ? inertia_a.substeps : 1u, pushes_b ? inertia_b.substeps : 1u), 1u);
-    precise float share = reciprocal(float(c.substeps));
-    precise float tangent_impulse_1 = manifold.tangent_impulse_1 * share;
-    precise float tangent_impulse_2 = manifold.tangent_impulse_2 * share;
-    precise float twist_impulse = manifold.twist_impulse * share;
-    c.tangent_impulse_1 = tangent_impulse_1;
-    c.tangent_impulse_2 = tangent_impulse_2;
-    c.twist_impulse = twist_impulse;
-    c.moment = vec3(0.0f, 0.0f, 0.0f);
-    c.reserved_1 = 0.0f;
-    c.gap = vec3(0.0f, 0.0f, 0.0f);
-    c.reserved_2 = 0.0f;
-    return c;
-}
-
-inline ContactConstraint add_to_centre(ContactConstraint c, ManifoldPoint point)
-{
-    precise float share = reciprocal(float(c.point_count));
-    c.centre_a = add_scaled(c.centre_a, point.anchor_a, share);
-    c.centre_b = add_scaled(c.centre_b, point.anchor_b, share);
-    return c;
-}
-
-inline ContactConstraint finish_constraint(ContactConstraint c, vec3 position_a, vec3 position_b, BodyInertia inertia_a,
-                                           BodyInertia inertia_b)
-{
-    precise vec3 gap = (position_b - position_a) + (c.centre_b - c.centre_a);
-    c.gap = gap;
-    Tangents t = contact_tangents(c.normal);
-    Row tangent_1 = make_row(t.t1, c.centre_a, c.centre_b, inertia_a, inertia_b);
-    Row tangent_2 = make_row(t.t2, c.centre_a, c.centre_b, inertia_a, inertia_b);
-    c.tangent_mass_1 = row_mass(tangent_1, c.inverse_masses);
-    c.tangent_mass_2 = row_mass(tangent_2, c.inverse_masses);
-    precise float k = dot3(c.normal, multiply_inertia(inertia_a, c.normal)) +
-                      dot3(c.normal, multiply_inertia(inertia_b, c.normal));
-    c.twist_mass = k > 0.0f ? reciprocal(k) : 0.0f;
-    return c;
-}
-
-inline ContactConstraintPoint prepare_point(ManifoldPoint old, ContactConstraint c, BodyInertia inertia_a,
-                                            BodyInertia inertia_b)
-{
-    Row row = make_row(c.normal, old.anchor_a, old.anchor_b, inertia_a, inertia_b);
-    precise vec3 apart = old.anchor_b - old.anchor_a;
-    precise vec3 arm = old.anchor_a - c.centre_a;
-    precise float base = old.separation - dot3(apart, c.normal);
-    precise float impulse = old.normal_impulse * reciprocal(float(c.substeps));
-    ContactConstraintPoint point;
-    point.anchor_a = old.anchor_a;
-    point.anchor_b = old.anchor_b;
-    point.base_separation = base;
-    point.normal_mass = row_mass(row, c.inverse_masses);
-    point.lever = length3(arm);
-    point.normal_impulse = impulse;
-    point.total_impulse = 0.0f;
-    point.hit_impulse = 0.0f;
-    return point;
-}
-
-// In the place of a point that is not there.
-inline ContactConstraintPoint no_point()
-{
-    ContactConstraintPoint point;
-    point.anchor_a = vec3(0.0f, 0.0f, 0.0f);
-    point.base_separation = 0.0f;
-    point.anchor_b = vec3(0.0f, 0.0f, 0.0f);
-    point.normal_mass = 0.0f;
-    point.lever = 0.0f;
-    point.normal_impulse = 0.0f;
-    point.total_impulse = 0.0f;
-    point.hit_impulse = 0.0f;
-    return point;
-}
-
-// ---- from a constraint back to its manifold ----
-
-// What a point passes on: the last sub-step's impulse, taken for all of them. One that was hit in the last sub-steps
-// alone must not be pushed as hard in all of the next step: then it is the sum.
-inline float impulse_of_step(ContactConstraintPoint point, ContactConstraint c)
-{
-    precise float lasting = point.normal_impulse * float(c.substeps);
-    precise float twice = 2.0f * point.total_impulse;
-    return max(lasting > twice ? point.total_impulse : lasting, 0.0f);
-}
-
-// Impulses of the whole step, and the sub-steps that their load asks for in the next one. The load is a running mean:
-// an impact is no reason for finer sub-steps.
-inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
-                               float inverse_mass_b, Parameters p)
-{
-    precise float whole = float(c.substeps);
-    precise float tangent_impulse_1 = c.tangent_impulse_1 * whole;
-    precise float tangent_impulse_2 = c.tangent_impulse_2 * whole;
-    precise float twist_impulse = c.twist_impulse * whole;
-    float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
-    manifold.tangent_impulse_1 = tangent_impulse_1;
-    manifold.tangent_impulse_2 = tangent_impulse_2;
-    manifold.twist_impulse = twist_impulse;
-    precise float mean = manifold.weights + k_newest_weight * (weights - manifold.weights);
-    uint wanted = wanted_substeps(mean, p);
-    bool on_trial = manifold.idle_steps >= k_trial;
-    bool idle = on_trial || 2u * wanted <= manifold.substeps;
-    manifold.idle_steps = idle ? manifold.idle_steps + 1u : 0u;
-    uint patience = on_trial ? k_trial + k_trial_steps : k_patience;
-    if (wanted > manifold.substeps) {
-        manifold.substeps = wanted;
-        manifold.idle_steps = 0u;
-    } else if (manifold.idle_steps >= patience) {
-        manifold.substeps = max(wanted, manifold.substeps / 2u);
-        manifold.idle_steps = manifold.substeps > wanted ? patience - k_halving_steps : 0u;
-    }
-    manifold.weights = mean;
-    return manifold;
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    return apply_impulse(v, rows.meeting, whole_impulse(rows, impulses.normal, impulses.friction), none, none);
 }

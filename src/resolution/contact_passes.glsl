@@ -6,10 +6,9 @@
 //   const bool k_bounces, whether there may be a restitution above 0
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
-// Reads: Inertias, Deltas. Reads and writes: Constraints, ConstraintPoints (their impulses), WarmStarts.
+// Reads: Inertias, Deltas. Reads and writes: Constraints (their impulses), WarmStarts.
 
 layout(std430) buffer Constraints { ContactConstraint constraints[]; };
-layout(std430) buffer ConstraintPoints { ContactConstraintPoint constraint_points[]; };
 layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
 layout(std430) coherent buffer Deltas { BodyDelta deltas[]; };
 layout(std430) coherent buffer WarmStarts { BodyWarmStart warm_starts[]; };
@@ -25,6 +24,7 @@ uint body_b;
 uint traits;
 uint substeps;
 vec3 gap_at_start;
+vec4 base_separation;
 ManifoldRows rows;
 ManifoldImpulses impulses;
 
@@ -33,75 +33,39 @@ void take_constraint(uint index)
     ContactConstraint c = constraints[index];
     BodyInertia inertia_a = inertias[c.body_a];
     BodyInertia inertia_b = inertias[c.body_b];
-    ContactConstraintPoint p0 = constraint_points[4u * index];
-    ContactConstraintPoint p1 = constraint_points[4u * index + 1u];
-    ContactConstraintPoint p2 = constraint_points[4u * index + 2u];
-    ContactConstraintPoint p3 = constraint_points[4u * index + 3u];
     body_a = c.body_a;
     body_b = c.body_b;
     traits = c.traits;
     substeps = c.substeps;
     gap_at_start = c.gap;
-    rows = make_rows(c, p0, p1, p2, p3, inertia_a, inertia_b);
-    impulses = make_impulses(c, p0, p1, p2, p3);
-}
-
-void put_back_point(uint point, float impulse, float total)
-{
-    constraint_points[point].normal_impulse = impulse;
-    constraint_points[point].total_impulse = total;
+    base_separation = c.base_separation;
+    rows = make_rows(c, inertia_a, inertia_b);
+    impulses = make_impulses(c);
 }
 
 void put_back_impulses(uint index)
 {
-    constraints[index].tangent_impulse_1 = impulses.friction.x;
-    constraints[index].tangent_impulse_2 = impulses.friction.y;
-    constraints[index].twist_impulse = impulses.friction.z;
+    constraints[index].friction_impulse = impulses.friction;
     constraints[index].moment = impulses.moment;
-    put_back_point(4u * index, impulses.normal.x, impulses.total.x);
-    put_back_point(4u * index + 1u, impulses.normal.y, impulses.total.y);
-    put_back_point(4u * index + 2u, impulses.normal.z, impulses.total.z);
-    put_back_point(4u * index + 3u, impulses.normal.w, impulses.total.w);
+    constraints[index].normal_impulse = impulses.normal;
+    constraints[index].total_impulse = impulses.total;
 }
 
-vec4 separations(uint index, BodyDelta delta_a, BodyDelta delta_b)
+PassTarget target_of_pass(uint pass)
 {
-    Approach approach = measure_approach(rows.normal, traits, delta_a, delta_b);
-    uint point = 4u * index;
-    return vec4(current_separation(constraint_points[point], approach),
-                current_separation(constraint_points[point + 1u], approach),
-                current_separation(constraint_points[point + 2u], approach),
-                current_separation(constraint_points[point + 3u], approach));
-}
-
-float least_of(uint point, float impulse, float total, Softness soft)
-{
-    return least_relaxed(constraint_points[point], rows.normal, impulse, total, soft);
-}
-
-PassTarget target_of_pass(uint pass, uint index)
-{
+    BodyDelta delta_a = deltas[body_a]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
+    BodyDelta delta_b = deltas[body_b];
+    Substep substep = substep_of(substeps, is_against_static(traits));
+    bool moves = pass != k_relax && is_against_static(traits);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == k_solve ? 0.0 : 1.0;
     target.moved_since = pass == k_relax;
-    BodyDelta delta_a = deltas[body_a]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
-    BodyDelta delta_b = deltas[body_b];
     target.slip = measure_slip(gap_at_start, traits, delta_a, delta_b);
-    Substep substep = substep_of(substeps, is_against_static(traits));
-    bool moves = pass != k_relax && is_against_static(traits);
     target.half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
-    target.normal = make_normal_target(separations(index, delta_a, delta_b), rows, impulses.normal, pass != k_relax,
-                                       substep, parameters);
-    if (pass == k_relax) {
-        uint point = 4u * index;
-        vec4 impulse = impulses.normal;
-        vec4 total = impulses.total;
-        target.normal.lower = vec4(least_of(point, impulse.x, total.x, substep.soft),
-                                   least_of(point + 1u, impulse.y, total.y, substep.soft),
-                                   least_of(point + 2u, impulse.z, total.z, substep.soft),
-                                   least_of(point + 3u, impulse.w, total.w, substep.soft));
-    }
+    target.normal = make_normal_target(current_separations(rows, base_separation, traits, delta_a, delta_b), rows,
+                                       impulses.normal, pass != k_relax, substep, parameters);
+    if (pass == k_relax) target.normal.lower = least_relaxed(rows, base_separation, impulses, substep.soft);
     return target;
 }
 
@@ -130,13 +94,13 @@ ManifoldState pass_over_hit(uint index, float old_share)
     BodyDelta delta_b = deltas[body_b];
     Slip slip = measure_slip(gap_at_start, traits, delta_a, delta_b);
     Substep substep = substep_of(substeps, is_against_static(traits));
-    vec4 closing = closing_speeds(separations(index, delta_a, delta_b), substep.inv_h);
+    vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
+    vec4 closing = closing_speeds(separations, substep.inv_h);
     ManifoldState before = begin_pass();
     Hit hit = solve_hit(before.velocities, rows, slip, closing, substep.inv_h, parameters);
     put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
-    for (uint i = 0u; i < 4u; ++i)
-        constraint_points[4u * index + i].hit_impulse += hit.impulse[i];
+    constraints[index].hit_impulse += hit.impulse;
     return end_hit(before, hit, old_share);
 }
 

@@ -5,36 +5,20 @@
 // Needs resolution/contact.shared.glsl.
 
 // The rows as they are after some slip. A hit needs them: with others it would not keep the energy.
-inline Row shift_row(Row row, vec3 d, Slip slip, BodyInertia inertia_a, BodyInertia inertia_b)
+inline ManifoldRows shift_rows(ManifoldRows rows, Slip slip)
 {
-    vec3 arm = cross3(slip.apart, d);
-    precise vec3 arm_a = row.arm_a + arm * slip.share_a;
-    precise vec3 arm_b = row.arm_b - arm * slip.share_b;
-    row.arm_a = arm_a;
-    row.arm_b = arm_b;
-    row.turn_a = multiply_inertia(inertia_a, arm_a);
-    row.turn_b = multiply_inertia(inertia_b, arm_b);
-    return row;
-}
-
-inline ManifoldRows shift_rows(ManifoldRows rows, Slip slip, float inverse_masses)
-{
-    BodyInertia inertia_a = rows.inertia_a;
-    BodyInertia inertia_b = rows.inertia_b;
-    rows.point_0 = shift_row(rows.point_0, rows.normal, slip, inertia_a, inertia_b);
-    rows.point_1 = shift_row(rows.point_1, rows.normal, slip, inertia_a, inertia_b);
-    rows.point_2 = shift_row(rows.point_2, rows.normal, slip, inertia_a, inertia_b);
-    rows.point_3 = shift_row(rows.point_3, rows.normal, slip, inertia_a, inertia_b);
-    rows.tangent_1 = shift_row(rows.tangent_1, rows.t1, slip, inertia_a, inertia_b);
-    rows.tangent_2 = shift_row(rows.tangent_2, rows.t2, slip, inertia_a, inertia_b);
+    Meeting m = rows.meeting;
+    m.centre_a = add_scaled(m.centre_a, slip.apart, slip.share_a);
+    m.centre_b = add_scaled(m.centre_b, slip.apart, -slip.share_b);
+    NormalResponse r = respond_to_normals(m);
     vec4 mass = rows.normal_mass; // 0 where there is no point
-    rows.normal_mass = vec4(mass.x > 0.0f ? row_mass(rows.point_0, inverse_masses) : 0.0f,
-                            mass.y > 0.0f ? row_mass(rows.point_1, inverse_masses) : 0.0f,
-                            mass.z > 0.0f ? row_mass(rows.point_2, inverse_masses) : 0.0f,
-                            mass.w > 0.0f ? row_mass(rows.point_3, inverse_masses) : 0.0f);
-    rows.friction_mass.x = row_mass(rows.tangent_1, inverse_masses);
-    rows.friction_mass.y = row_mass(rows.tangent_2, inverse_masses);
-    return couple_points(rows, inverse_masses);
+    rows.meeting = m;
+    rows.normal_mass = vec4(mass.x > 0.0f ? point_mass(r, rows.x.x, rows.y.x) : 0.0f,
+                            mass.y > 0.0f ? point_mass(r, rows.x.y, rows.y.y) : 0.0f,
+                            mass.z > 0.0f ? point_mass(r, rows.x.z, rows.y.z) : 0.0f,
+                            mass.w > 0.0f ? point_mass(r, rows.x.w, rows.y.w) : 0.0f);
+    rows.friction_mass = friction_masses(m);
+    return couple_rows(rows, r);
 }
 
 struct Hit {
@@ -76,17 +60,18 @@ inline float time_of_hit(vec4 velocity, vec4 mass, vec4 closing, float inv_h, Pa
 // `v`: the velocities before the pass.
 inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 closing, float inv_h, Parameters p)
 {
-    vec4 velocity = normal_velocities(v, rows, slip);
-    float e = rows.restitution;
-    float time = time_of_hit(velocity, rows.normal_mass, closing, inv_h, p);
-    rows = shift_rows(rows, slip_after(slip, v, time), v.a.inverse_mass + v.b.inverse_mass);
+    vec4 approaching = normal_velocities(relative_velocity(v, rows.meeting, slip), rows);
+    float time = time_of_hit(approaching, rows.normal_mass, closing, inv_h, p);
+    rows = shift_rows(rows, slip_after(slip, v, time));
     slip.apart = vec3(0.0f, 0.0f, 0.0f);
 
+    SpatialVector motion = relative_velocity(v, rows.meeting, slip);
     NormalSweep sweep;
-    sweep.velocity = normal_velocities(v, rows, slip);
+    sweep.velocity = normal_velocities(motion, rows);
     sweep.impulse = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    velocity = sweep.velocity;
+    vec4 velocity = sweep.velocity;
     vec4 mass = rows.normal_mass;
+    float e = rows.restitution;
     vec4 leaving = vec4(leaving_velocity(velocity.x, mass.x, closing.x, e, p),
                         leaving_velocity(velocity.y, mass.y, closing.y, e, p),
                         leaving_velocity(velocity.z, mass.z, closing.z, e, p),
@@ -100,16 +85,14 @@ inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 closing,
     for (uint i = 0u; i < k_sweeps_of_fast; i += 1u)
         sweep = sweep_normals(sweep, rows, rigid);
 
-    ManifoldState s;
-    s.velocities = apply_normals(v, rows, sweep.impulse);
-    s.impulses.normal = sweep.impulse;
-    s.impulses.total = sweep.impulse;
-    s.impulses.friction = vec3(0.0f, 0.0f, 0.0f);
-    s.impulses.moment = vec3(0.0f, 0.0f, 0.0f);
-    s.is_hit = true;
-    s = solve_friction(s, rows, make_friction_target(rows, sweep.impulse), slip);
+    // Then friction, within the limit that the hit itself gives.
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    vec4 no_points = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    v = apply_impulse(v, rows.meeting, whole_impulse(rows, sweep.impulse, none), none, none);
+    vec3 sliding = friction_velocities(relative_velocity(v, rows.meeting, slip));
+    vec3 friction = solve_friction_rows(none, rows.friction_mass, sliding, make_friction_target(rows, sweep.impulse));
     Hit hit;
-    hit.velocities = s.velocities;
+    hit.velocities = apply_impulse(v, rows.meeting, whole_impulse(rows, no_points, friction), none, none);
     hit.impulse = sweep.impulse;
     hit.time = time;
     return hit;

@@ -2,8 +2,8 @@
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
 // is valid), a new one is listed as uncoloured. Also counts manifolds and contact points.
 // Reads: Manifolds, Shapes.
-// Writes: ManifoldKeys (the colour), ManifoldOrder (the pair), BodyColours, Uncoloured, Counters. The order of the list depends
-// on who comes first; nothing that is made from it does.
+// Writes: ManifoldKeys (the colour), ManifoldOrder (the pair), BodyColours, Uncoloured, Counters. The order of the list
+// depends on who comes first; nothing that is made from it does.
 // Needs: barriers after clear_colours and collide_pairs.
 // Overflow: none; the list has room for every pair.
 #include "state/math.shared.glsl"

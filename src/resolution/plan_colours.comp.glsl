@@ -4,8 +4,8 @@
 // Reads: ColourOffsets, Counters.
 // Writes: Counters, Dispatches.
 // Needs: a barrier after the sort of the manifolds.
-// Overflow: more colours or sub-steps than the host has launches for are said in k_counter_did_not_fit. Where that is set, by this
-// step or an earlier one, all launches are empty.
+// Overflow: more colours or sub-steps than the host has launches for are said in k_counter_did_not_fit. Where that is
+// set, by this step or an earlier one, all launches are empty.
 #include "state/dispatch.shared.glsl"
 
 layout(local_size_x = 64) in; // k_max_colours

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
 // Reads: Counters, Poses, ManifoldOrder, Manifolds, ManifoldPoints, Velocities, Inertias.
-// Writes: Constraints, ConstraintPoints.
+// Writes: Constraints.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
-#include "resolution/tangents.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
-#include "resolution/contact.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
+#include "resolution/contact_constraint.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -20,7 +21,6 @@ layout(std430) readonly buffer ManifoldPoints { ManifoldPoint manifold_points[];
 layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraint constraints[]; };
-layout(std430) writeonly buffer ConstraintPoints { ContactConstraintPoint constraint_points[]; };
 
 void main()
 {
@@ -35,14 +35,11 @@ void main()
     ContactConstraint c = begin_constraint(manifold, manifold_index, inverse_masses, inertia_a, inertia_b);
     for (uint i = 0u; i < manifold.point_count; ++i)
         c = add_to_centre(c, manifold_points[4u * manifold_index + i]);
-    c = finish_constraint(c, poses[manifold.body_a].position, poses[manifold.body_b].position, inertia_a, inertia_b);
+    c = end_centre(c, poses[manifold.body_a].position, poses[manifold.body_b].position);
+    Meeting meeting = make_meeting(c, inertia_a, inertia_b);
+    c.friction_mass = friction_masses(meeting);
+    NormalResponse response = respond_to_normals(meeting);
+    for (uint i = 0u; i < manifold.point_count; ++i)
+        c = add_point(c, int(i), manifold_points[4u * manifold_index + i], meeting, response);
     constraints[index] = c;
-    for (uint i = 0u; i < 4u; ++i) {
-        ContactConstraintPoint point = no_point();
-        if (i < manifold.point_count) {
-            ManifoldPoint old = manifold_points[4u * manifold_index + i];
-            point = prepare_point(old, c, inertia_a, inertia_b);
-        }
-        constraint_points[4u * index + i] = point;
-    }
 }

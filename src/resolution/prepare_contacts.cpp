@@ -19,11 +19,12 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
         c = begin_constraint(manifold, manifold_index, inverse_masses, inertia_a, inertia_b);
         for (uint i = 0; i < manifold.point_count; ++i)
             c = add_to_centre(c, points[i]);
-        c = finish_constraint(c, state.poses[manifold.body_a].position, state.poses[manifold.body_b].position,
-                              inertia_a, inertia_b);
-        for (uint i = 0; i < 4; ++i)
-            state.constraint_points[std::size_t{4} * index + i] =
-                i < manifold.point_count ? prepare_point(points[i], c, inertia_a, inertia_b) : no_point();
+        c = end_centre(c, state.poses[manifold.body_a].position, state.poses[manifold.body_b].position);
+        const Meeting meeting = make_meeting(c, inertia_a, inertia_b);
+        c.friction_mass = friction_masses(meeting);
+        const NormalResponse response = respond_to_normals(meeting);
+        for (uint i = 0; i < manifold.point_count; ++i)
+            c = add_point(c, static_cast<int>(i), points[i], meeting, response);
     });
 }
 

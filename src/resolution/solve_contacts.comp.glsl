@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold of one colour: one pass of sequential impulses over its points (thesis, section 3.4).
-// args.x: the colour; args.y: the pass, k_warm_start, k_solve, ...; args.z: the sub-step. No two
-// manifolds of a colour share a body that they could push. The overflow set is solved one after the other by a single invocation.
+// args.x: the colour; args.y: the pass, k_warm_start, k_solve, ...; args.z: the sub-step. No two manifolds of a colour
+// share a body that they could push. The overflow set is solved one after the other by a single invocation.
 // Reads: ColourOffsets, Constraints, Inertias, Deltas.
-// Writes: Velocities, WarmStarts, Constraints and ConstraintPoints (impulses).
+// Writes: Velocities, WarmStarts, Constraints (impulses).
 // Needs: a barrier after the colour before.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
-#include "resolution/tangents.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
 #include "resolution/contact.shared.glsl"
 #include "resolution/hit.shared.glsl"
 
@@ -39,7 +40,7 @@ void main()
         if (args.z >= constraints[index].substeps) continue;
         take_constraint(index);
         PassTarget target;
-        if (args.y != k_warm_start) target = target_of_pass(args.y, index);
+        if (args.y != k_warm_start) target = target_of_pass(args.y);
         pass_over_constraint(args.y, index, target);
         if (args.y != k_warm_start) put_back_impulses(index);
     }

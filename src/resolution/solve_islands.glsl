@@ -6,20 +6,20 @@
 // invocations it takes the next one before it waits for the others, so that nobody waits for memory.
 // Before this file the kernel defines k_bounces, as for contact_passes.glsl.
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
-// Writes: Velocities, Deltas, WarmStarts, Constraints and ConstraintPoints (impulses); Poses (flags) and Counters where
-// a body is frozen.
+// Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen.
 // Needs: a barrier after prepare_contacts. At most k_island_bodies body slots.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
-#include "resolution/tangents.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
 #include "resolution/contact.shared.glsl"
 #include "resolution/hit.shared.glsl"
 #include "resolution/island.shared.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = 384) in; // most islands have no more manifolds; with more, registers get short
 
 layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
@@ -92,7 +92,7 @@ void take(uint index)
 void pass_over_contacts(uint pass)
 {
     PassTarget target;
-    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass, in_hand);
+    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass);
     uint colour_end = colour_offsets[0];
     for (uint colour = 0u; colour < k_max_colours && colour_end < colour_offsets[k_overflow_colour]; ++colour) {
         uint colour_begin = colour_end;
@@ -103,7 +103,7 @@ void pass_over_contacts(uint pass)
             pass_over_constraint(pass, in_hand, target);
             take(in_hand + gl_WorkGroupSize.x);
             if (in_hand <= done) break; // that was the last one: the next pass begins with the first
-            if (pass != k_warm_start) target = target_of_pass(pass, in_hand);
+            if (pass != k_warm_start) target = target_of_pass(pass);
         }
         barrier();
     }
@@ -115,7 +115,7 @@ void pass_over_contacts(uint pass)
         in_hand = k_none;
         for (uint index = colour_offsets[k_overflow_colour]; index < overflow_end; ++index) {
             take_constraint(index);
-            if (pass != k_warm_start) target = target_of_pass(pass, index);
+            if (pass != k_warm_start) target = target_of_pass(pass);
             pass_over_constraint(pass, index, target);
             put_back_impulses(index);
         }
@@ -137,9 +137,8 @@ void main()
     if (me < k_max_colours + 2u) colour_offsets[me] = count_below(manifold_key(island, me));
     // Of other islands' bodies nothing is read; static ones have no island.
     uint own_bodies = 0u; // a bit for each body slot that is this invocation's
-    for (uint i = 0u; i < k_island_bodies / gl_WorkGroupSize.x; ++i) {
+    for (uint i = 0u; me + i * gl_WorkGroupSize.x < parameters.body_count; ++i) {
         uint body = me + i * gl_WorkGroupSize.x;
-        if (body >= parameters.body_count) break;
         uint its_island = islands[body];
         if (its_island == island) own_bodies |= 1u << i;
         if (its_island == island || its_island == k_none) store_velocity(body, velocities[body]);

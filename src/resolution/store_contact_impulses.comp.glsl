@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: its impulses and its colour go back to where the next step, and
 // the caller, find them. The load on it decides how many sub-steps it asks for next.
-// Reads: Counters, Constraints, ConstraintPoints, ManifoldKeys, Properties.
+// Reads: Counters, Constraints, ManifoldKeys, Properties.
 // Writes: ManifoldPoints and Manifolds (impulses, colour, load, sub-steps).
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
-#include "resolution/tangents.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
-#include "resolution/contact.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
+#include "resolution/contact_constraint.shared.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Constraints { ContactConstraint constraints[]; };
-layout(std430) readonly buffer ConstraintPoints { ContactConstraintPoint constraint_points[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer Properties { BodyProperties properties[]; };
 layout(std430) buffer Manifolds { Manifold manifolds[]; };
@@ -28,8 +28,7 @@ void main()
     ContactConstraint c = constraints[index];
     vec4 impulse = vec4(0.0);
     for (uint i = 0u; i < c.point_count; ++i) {
-        ContactConstraintPoint point = constraint_points[4u * index + i];
-        float of_step = impulse_of_step(point, c);
+        float of_step = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], c.substeps);
         manifold_points[4u * c.manifold + i].normal_impulse = of_step;
         impulse[i] = of_step;
     }

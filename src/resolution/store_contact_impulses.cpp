@@ -11,10 +11,10 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch&) {
         const ContactConstraint& c = state.constraints[index];
         Manifold& manifold = state.manifolds[c.manifold];
         vec4 impulse(0.0f);
-        for (uint i = 0; i < c.point_count; ++i) {
-            const float of_step = impulse_of_step(state.constraint_points[std::size_t{4} * index + i], c);
-            state.manifold_points[std::size_t{4} * c.manifold + i].normal_impulse = of_step;
-            impulse[static_cast<int>(i)] = of_step;
+        ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * c.manifold];
+        for (int i = 0; i < static_cast<int>(c.point_count); ++i) {
+            impulse[i] = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], c.substeps);
+            points[i].normal_impulse = impulse[i];
         }
         manifold.colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
         manifold = finish_manifold(manifold, c, impulse, state.properties[c.body_a].inverse_mass,

@@ -57,8 +57,8 @@ namespace talus::engine {
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
-    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffufffffuffffffff", Result)                         \
-    X(ConstraintPoints, constraint_points, ContactConstraintPoint, "ffffffffffff", Result)                             \
+    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffufffuffffffffffffffffffffffffffffffffffffffff", \
+      Result)                                                                                                          \
     /* control */                                                                                                      \
     X(Counters, counters, uint, "u", State)                                                                            \
     X(Dispatches, dispatches, Dispatch, "uuuu", Result)

@@ -13,8 +13,8 @@ namespace talus::engine {
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
 
+#include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
-#include "resolution/tangents.shared.glsl"
 
 #include "narrow_phase/contact_geometry.shared.glsl"
 
@@ -27,7 +27,10 @@ namespace talus::engine {
 
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
+
 #include "resolution/contact.shared.glsl"
+#include "resolution/contact_constraint.shared.glsl"
 #include "resolution/hit.shared.glsl"
 #include "resolution/island.shared.glsl"
 

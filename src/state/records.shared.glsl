@@ -122,7 +122,8 @@ struct ManifoldPoint {
     float normal_impulse; // N s, over the step
 };
 
-// 128 bytes, one a manifold, in the order of the solve: what the solver reads of it.
+// 256 bytes, one a manifold, in the order of the solve: all that the solver reads of it. A vec4 holds a number for each
+// point; see resolution/manifold_rows.shared.glsl.
 struct ContactConstraint {
     uint body_a;
     uint body_b;
@@ -130,35 +131,27 @@ struct ContactConstraint {
     uint point_count;
     vec3 normal;
     float friction;
-    vec3 centre_a; // m, the middle of the points from A's centre: where friction acts
-    float tangent_mass_1; // kg
-    vec3 centre_b; // m, from B's centre
-    float tangent_mass_2;
+    vec3 centre_a; // m, the middle of the points from A's centre
     float restitution;
-    uint traits;          // k_trait_* of A, and of B four bits higher
-    float twist_mass;     // kg m^2, about the normal
+    vec3 centre_b; // m, from B's centre
     float inverse_masses; // 1/kg, the sum of both
-    // What the solver's passes change.
-    float tangent_impulse_1; // N s, accumulated
-    float tangent_impulse_2;
-    float twist_impulse; // N m s, accumulated
+    vec3 gap;             // m, from A's middle of the points to B's, at the start of the step
+    uint traits;          // k_trait_* of A, and of B four bits higher
+    vec3 friction_mass;   // kg, kg, kg m^2: along the frame's x and y, and about the normal
     uint substeps;
-    vec3 moment; // N m s: of the accumulated impulses, for the way that the bodies have come (contact.shared.glsl)
+    vec4 x; // m, from the middle of the points, in the contact's frame
+    vec4 y;
+    vec4 lever;           // m, the distance from the middle
+    vec4 base_separation; // m: separation without what the middle itself contributes
+    vec4 normal_mass;     // kg, effective mass along the normal (equation 3.15)
+    // What the solver's passes change.
+    vec3 friction_impulse; // N s, N s, N m s, accumulated
     float reserved_1;
-    vec3 gap; // m, from A's anchors to B's at the start of the step
+    vec3 moment; // N m s: of the accumulated impulses, for the way that the bodies have come (contact.shared.glsl)
     float reserved_2;
-};
-
-// 48 bytes, four a constraint.
-struct ContactConstraintPoint {
-    vec3 anchor_a;
-    float base_separation; // m: separation without what the anchors themselves contribute
-    vec3 anchor_b;
-    float normal_mass; // kg, effective mass along the normal (equation 3.15)
-    float lever;          // m, from the middle of the points
-    float normal_impulse; // N s, accumulated
-    float total_impulse;  // N s, the sum over all sub-steps
-    float hit_impulse;    // N s, the sum of the step's hits
+    vec4 normal_impulse; // N s, accumulated
+    vec4 total_impulse;  // N s, the sum over all sub-steps
+    vec4 hit_impulse;    // N s, the sum of the step's hits
 };
 
 // ---- control ----

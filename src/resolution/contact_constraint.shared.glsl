@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// From a manifold to the solver's record of it, and back.
+// Needs resolution/manifold_rows.shared.glsl and softness.shared.glsl.
+
+// ---- from a manifold to a constraint ----
+
+// Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
+// cannot be pushed: the other's number holds.
+inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, float inverse_masses,
+                                          BodyInertia inertia_a, BodyInertia inertia_b)
+{
+    bool pushes_a = (inertia_a.traits & k_trait_movable) != 0u;
+    bool pushes_b = (inertia_b.traits & k_trait_movable) != 0u;
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    vec4 no_points = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    ContactConstraint c;
+    c.body_a = manifold.body_a;
+    c.body_b = manifold.body_b;
+    c.manifold = manifold_index;
+    c.point_count = manifold.point_count;
+    c.normal = manifold.normal;
+    c.friction = manifold.friction;
+    c.centre_a = none;
+    c.restitution = manifold.restitution;
+    c.centre_b = none;
+    c.inverse_masses = inverse_masses;
+    c.gap = none;
+    c.traits = inertia_a.traits | (inertia_b.traits << k_traits_of_b);
+    c.friction_mass = none;
+    c.substeps = max(max(pushes_a ? inertia_a.substeps : 1u, pushes_b ? inertia_b.substeps : 1u), 1u);
+    c.x = no_points;
+    c.y = no_points;
+    c.lever = no_points;
+    c.base_separation = no_points;
+    c.normal_mass = no_points;
+    precise vec3 friction_impulse =
+        vec3(manifold.tangent_impulse_1, manifold.tangent_impulse_2, manifold.twist_impulse) *
+        reciprocal(float(c.substeps));
+    c.friction_impulse = friction_impulse;
+    c.reserved_1 = 0.0f;
+    c.moment = none;
+    c.reserved_2 = 0.0f;
+    c.normal_impulse = no_points;
+    c.total_impulse = no_points;
+    c.hit_impulse = no_points;
+    return c;
+}
+
+inline ContactConstraint add_to_centre(ContactConstraint c, ManifoldPoint point)
+{
+    precise float share = reciprocal(float(c.point_count));
+    c.centre_a = add_scaled(c.centre_a, point.anchor_a, share);
+    c.centre_b = add_scaled(c.centre_b, point.anchor_b, share);
+    return c;
+}
+
+inline ContactConstraint end_centre(ContactConstraint c, vec3 position_a, vec3 position_b)
+{
+    precise vec3 gap = (position_b - position_a) + (c.centre_b - c.centre_a);
+    c.gap = gap;
+    return c;
+}
+
+// Point i of the manifold. `r`: of the meeting.
+inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint point, Meeting m, NormalResponse r)
+{
+    precise vec3 arm = point.anchor_a - c.centre_a;
+    precise vec3 apart = c.centre_b - c.centre_a;
+    precise float base = point.separation - dot3(apart, c.normal);
+    precise float impulse = point.normal_impulse * reciprocal(float(c.substeps));
+    float x = dot3(arm, m.frame.x);
+    float y = dot3(arm, m.frame.y);
+    precise float square = x * x + y * y;
+    c.x[i] = x;
+    c.y[i] = y;
+    c.lever[i] = square_root(square);
+    c.base_separation[i] = base;
+    c.normal_mass[i] = point_mass(r, x, y);
+    c.normal_impulse[i] = impulse;
+    return c;
+}
+
+// ---- from a constraint back to its manifold ----
+
+// What a point passes on: the last sub-step's impulse, taken for all of them. One that was hit in the last sub-steps
+// alone must not be pushed as hard in all of the next step: then it is the sum.
+inline float impulse_of_step(float normal_impulse, float total_impulse, uint substeps)
+{
+    precise float lasting = normal_impulse * float(substeps);
+    precise float twice = 2.0f * total_impulse;
+    return max(lasting > twice ? total_impulse : lasting, 0.0f);
+}
+
+// Impulses of the whole step, and the sub-steps that their load asks for in the next one. The load is a running mean:
+// an impact is no reason for finer sub-steps.
+inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
+                               float inverse_mass_b, Parameters p)
+{
+    precise float whole = float(c.substeps);
+    precise vec3 friction = c.friction_impulse * whole;
+    float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
+    manifold.tangent_impulse_1 = friction.x;
+    manifold.tangent_impulse_2 = friction.y;
+    manifold.twist_impulse = friction.z;
+    precise float mean = manifold.weights + k_newest_weight * (weights - manifold.weights);
+    uint wanted = wanted_substeps(mean, p);
+    bool on_trial = manifold.idle_steps >= k_trial;
+    bool idle = on_trial || 2u * wanted <= manifold.substeps;
+    manifold.idle_steps = idle ? manifold.idle_steps + 1u : 0u;
+    uint patience = on_trial ? k_trial + k_trial_steps : k_patience;
+    if (wanted > manifold.substeps) {
+        manifold.substeps = wanted;
+        manifold.idle_steps = 0u;
+    } else if (manifold.idle_steps >= patience) {
+        manifold.substeps = max(wanted, manifold.substeps / 2u);
+        manifold.idle_steps = manifold.substeps > wanted ? patience - k_halving_steps : 0u;
+    }
+    manifold.weights = mean;
+    return manifold;
+}

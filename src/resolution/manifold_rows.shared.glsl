@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// The rows of a manifold: a normal row for each point, two friction rows, and one against twisting about the normal.
+//
+// The rows of the thesis meet two bodies at up to four points. These meet them at one place, the middle of the points,
+// and in one frame, with the normal as its z. All that they see of the bodies' velocities V are then six numbers, the
+// relative linear and angular velocity; all that they do are six more, an impulse and a moment; and what the rows do to
+// each other is known before the velocities are. Point i, at (x, y) from the middle, has the Jacobian (equation 3.6)
+//   J_i V = linear.z + y angular.x - x angular.y
+// Points lie in the frame's plane: how far above it or below one lies is of second order.
+//
+// Symbols: v, w linear and angular velocity; c the middle of the points from a body's centre; n normal from A to B;
+// K = J M^-1 J^T (equation 3.15 without the inversion). A vec4 holds a number for each of the four points; a point that
+// is not there has mass 0, and so no impulse.
+// Needs resolution/contact_frame.shared.glsl and body.shared.glsl.
+
+// Linear and angular part together (Featherstone, "Rigid Body Dynamics Algorithms", 2008) along the axes of the
+// contact's frame: of B's velocity as seen from A, or of an impulse on B and its moment.
+struct SpatialVector {
+    vec3 linear;
+    vec3 angular;
+};
+
+// Where and in what directions two bodies meet, and how they yield.
+struct Meeting {
+    Axes frame;
+    vec3 centre_a; // m, from A's centre to the middle of the points, world axes
+    vec3 centre_b;
+    BodyInertia inertia_a;
+    BodyInertia inertia_b;
+    float inverse_masses; // 1/kg, the sum of both
+};
+
+struct VelocityPair {
+    BodyVelocity a;
+    BodyVelocity b;
+};
+
+// v_b - v_a at the middle of the points, as of A's velocity and B's.
+inline vec3 velocity_between(vec3 linear, vec3 w_a, vec3 w_b, vec3 centre_a, vec3 centre_b)
+{
+    precise vec3 velocity = linear + (cross3(w_b, centre_b) - cross3(w_a, centre_a));
+    return velocity;
+}
+
+const uint k_traits_of_b = 4u; // bits that B's traits are shifted by in a constraint
+
+inline bool is_against_static(uint traits)
+{
+    return (traits & (traits >> k_traits_of_b) & k_trait_movable) == 0u;
+}
+
+// ---- K ----
+
+// How the relative velocity changes by an impulse on B at the middle, and a moment; A gets the opposite. World axes.
+inline SpatialVector respond(Meeting m, vec3 impulse, vec3 moment)
+{
+    precise vec3 torque_a = cross3(m.centre_a, impulse) + moment;
+    precise vec3 torque_b = cross3(m.centre_b, impulse) + moment;
+    vec3 w_a = multiply_inertia(m.inertia_a, vec3(-torque_a.x, -torque_a.y, -torque_a.z));
+    vec3 w_b = multiply_inertia(m.inertia_b, torque_b);
+    vec3 linear = velocity_between(scale3(impulse, m.inverse_masses), w_a, w_b, m.centre_a, m.centre_b);
+    precise vec3 angular = w_b - w_a;
+    SpatialVector response;
+    response.linear = to_local(m.frame, linear);
+    response.angular = to_local(m.frame, angular);
+    return response;
+}
+
+// K of what the normal rows act by: a push along the normal, and moments about the frame's x and y (tilts).
+struct NormalResponse {
+    SpatialVector push;
+    SpatialVector tilt_x;
+    SpatialVector tilt_y;
+};
+
+inline NormalResponse respond_to_normals(Meeting m)
+{
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    NormalResponse r;
+    r.push = respond(m, m.frame.z, none);
+    r.tilt_x = respond(m, none, m.frame.x);
+    r.tilt_y = respond(m, none, m.frame.y);
+    return r;
+}
+
+// What a unit of impulse at the point (x, y) does to linear.z, angular.x and angular.y.
+inline vec3 respond_to_point(NormalResponse r, float x, float y)
+{
+    precise vec3 response =
+        vec3(r.push.linear.z, r.push.angular.x, r.push.angular.y) +
+        (vec3(r.tilt_x.linear.z, r.tilt_x.angular.x, r.tilt_x.angular.y) * y -
+         vec3(r.tilt_y.linear.z, r.tilt_y.angular.x, r.tilt_y.angular.y) * x);
+    return response;
+}
+
+// J V of the point (x, y), of linear.z, angular.x and angular.y.
+inline float point_velocity(vec3 motion, float x, float y)
+{
+    precise float velocity = motion.x + (y * motion.y - x * motion.z);
+    return velocity;
+}
+
+// 1 / K: an effective mass (equation 3.15). Without a K, as of a body that nothing turns, there is nothing to solve.
+inline float effective_mass(float k) { return k > 0.0f ? reciprocal(k) : 0.0f; }
+
+inline float point_mass(NormalResponse r, float x, float y)
+{
+    return effective_mass(point_velocity(respond_to_point(r, x, y), x, y));
+}
+
+// Along the frame's x and y, and about its z.
+inline vec3 friction_masses(Meeting m)
+{
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    return vec3(effective_mass(respond(m, m.frame.x, none).linear.x),
+                effective_mass(respond(m, m.frame.y, none).linear.y),
+                effective_mass(respond(m, none, m.frame.z).angular.z));
+}
+
+// ---- the rows ----
+
+// All that stays the same in the passes of a step.
+struct ManifoldRows {
+    Meeting meeting;
+    vec4 x; // m, each point from the middle, in the frame
+    vec4 y;
+    vec4 lever; // m, its distance from there
+    vec4 normal_mass;   // kg
+    vec3 friction_mass; // kg, kg, kg m^2
+    // K between the rows.
+    vec3 coupling_0; // of point 0 with points 1, 2, 3
+    vec3 coupling_1; // of point 1 with points 2 and 3; of point 2 with point 3
+    vec3 friction_push; // what friction does to linear.z, angular.x and angular.y
+    vec3 friction_tilt_x;
+    vec3 friction_tilt_y;
+    float friction;
+    float restitution;
+};
+
+inline ManifoldRows couple_rows(ManifoldRows rows, NormalResponse r)
+{
+    vec4 x = rows.x;
+    vec4 y = rows.y;
+    vec3 response_0 = respond_to_point(r, x.x, y.x);
+    vec3 response_1 = respond_to_point(r, x.y, y.y);
+    vec3 response_2 = respond_to_point(r, x.z, y.z);
+    rows.coupling_0 = vec3(point_velocity(response_0, x.y, y.y), point_velocity(response_0, x.z, y.z),
+                           point_velocity(response_0, x.w, y.w));
+    rows.coupling_1 = vec3(point_velocity(response_1, x.z, y.z), point_velocity(response_1, x.w, y.w),
+                           point_velocity(response_2, x.w, y.w));
+    rows.friction_push = vec3(r.push.linear.x, r.push.linear.y, r.push.angular.z);
+    rows.friction_tilt_x = vec3(r.tilt_x.linear.x, r.tilt_x.linear.y, r.tilt_x.angular.z);
+    rows.friction_tilt_y = vec3(r.tilt_y.linear.x, r.tilt_y.linear.y, r.tilt_y.angular.z);
+    return rows;
+}
+
+inline Meeting make_meeting(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)
+{
+    Meeting m;
+    m.frame = contact_frame(c.normal);
+    m.centre_a = c.centre_a;
+    m.centre_b = c.centre_b;
+    m.inertia_a = inertia_a;
+    m.inertia_b = inertia_b;
+    m.inverse_masses = c.inverse_masses;
+    return m;
+}
+
+inline ManifoldRows make_rows(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)
+{
+    ManifoldRows rows;
+    rows.meeting = make_meeting(c, inertia_a, inertia_b);
+    rows.x = c.x;
+    rows.y = c.y;
+    rows.lever = c.lever;
+    rows.normal_mass = c.normal_mass;
+    rows.friction_mass = c.friction_mass;
+    rows.friction = c.friction;
+    rows.restitution = c.restitution;
+    return couple_rows(rows, respond_to_normals(rows.meeting));
+}
+
+// ---- velocities in, impulses out ----
+
+inline vec4 normal_velocities(SpatialVector motion, ManifoldRows rows)
+{
+    precise vec4 velocity = motion.linear.z + (rows.y * motion.angular.x - rows.x * motion.angular.y);
+    return velocity;
+}
+
+inline vec3 friction_velocities(SpatialVector motion)
+{
+    return vec3(motion.linear.x, motion.linear.y, motion.angular.z);
+}
+
+// What the normal rows see of a motion once the friction rows have changed by `impulse`.
+inline SpatialVector after_friction(SpatialVector motion, ManifoldRows rows, vec3 impulse)
+{
+    precise float linear = motion.linear.z + dot3(rows.friction_push, impulse);
+    precise float tilt_x = motion.angular.x + dot3(rows.friction_tilt_x, impulse);
+    precise float tilt_y = motion.angular.y + dot3(rows.friction_tilt_y, impulse);
+    motion.linear.z = linear;
+    motion.angular.x = tilt_x;
+    motion.angular.y = tilt_y;
+    return motion;
+}
+
+// The rows' impulses together: J^T lambda.
+inline SpatialVector whole_impulse(ManifoldRows rows, vec4 normal, vec3 friction)
+{
+    precise vec4 about_x = rows.y * normal;
+    precise vec4 about_y = rows.x * normal;
+    SpatialVector whole;
+    whole.linear = vec3(friction.x, friction.y, sum4(normal));
+    whole.angular = vec3(sum4(about_x), -sum4(about_y), friction.z);
+    return whole;
+}
+
+// M^-1 J^T lambda (equation 3.13). `moment_a`, `moment_b`: on top, in world axes, on each body.
+inline VelocityPair apply_impulse(VelocityPair v, Meeting m, SpatialVector whole, vec3 moment_a, vec3 moment_b)
+{
+    vec3 impulse = to_world(m.frame, whole.linear);
+    vec3 moment = to_world(m.frame, whole.angular);
+    precise vec3 torque_a = cross3(m.centre_a, impulse) + (moment + moment_a);
+    precise vec3 torque_b = cross3(m.centre_b, impulse) + (moment + moment_b);
+    precise vec3 linear_a = v.a.linear - impulse * v.a.inverse_mass;
+    precise vec3 linear_b = v.b.linear + impulse * v.b.inverse_mass;
+    precise vec3 angular_a = v.a.angular - multiply_inertia(m.inertia_a, torque_a);
+    precise vec3 angular_b = v.b.angular + multiply_inertia(m.inertia_b, torque_b);
+    v.a.linear = linear_a;
+    v.b.linear = linear_b;
+    v.a.angular = angular_a;
+    v.b.angular = angular_b;
+    return v;
+}
