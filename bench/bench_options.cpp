@@ -82,8 +82,9 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
             .add_option("--solver-curves", options.solver_curves,
                         "Measure drift and time over the passes of the solver instead, and write them as CSV")
             ->type_name("FILE.csv");
-    for (CLI::Option* other : {repeats, stages, peer, json, against, command.get_option("--iterations"),
-                               command.get_option("--substeps"), command.get_option("--stabilisation")})
+    for (CLI::Option* other :
+         {repeats, stages, peer, json, against, command.get_option("--iterations"), command.get_option("--substeps"),
+          command.get_option("--stabilisation"), command.get_option("--solve-order")})
         curves->excludes(other);
 }
 

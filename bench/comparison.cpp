@@ -18,8 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Pointer = Json::json_pointer;
 
-constexpr std::array k_conditions{"/device/name", "/threads",    "/steps",         "/dt",
-                                  "/substeps",    "/iterations", "/stabilisation", "/broad_phase"};
+constexpr std::array k_conditions{"/device/name", "/threads",       "/steps",       "/dt",         "/substeps",
+                                  "/iterations",  "/stabilisation", "/solve_order", "/broad_phase"};
 
 bool same_case(const Json& a, const Json& b) {
     return a["scene"] == b["scene"] && a["device"]["kind"] == b["device"]["kind"];

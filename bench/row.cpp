@@ -12,7 +12,8 @@ nlohmann::ordered_json to_json(const Row& row) {
     nlohmann::ordered_json json = cli::to_json(row.report);
     if (!row.is_peer) return json;
     json["device"]["kind"] = row.runs_on;
-    for (const char* key : {"substeps", "stabilisation", "broad_phase", "colours", "growths", "state_hash"})
+    for (const char* key :
+         {"substeps", "stabilisation", "solve_order", "broad_phase", "colours", "growths", "state_hash"})
         json[key] = nullptr;
     json["memory_bytes"] = {{"device", nullptr}, {"host", nullptr}};
     return json;

@@ -21,16 +21,17 @@ constexpr std::array k_scenes{"stack:height=10", "pool:boxes=200", "extreme_stac
 constexpr std::array<std::uint32_t, 13> k_iterations{1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 75, 100, 150};
 constexpr std::array<std::uint32_t, 7> k_substeps{1, 2, 4, 8, 16, 32, 64};
 
-constexpr std::string_view k_columns =
-    "scene,stabilisation,passes,steps,max_drift_m,max_drift_sideways_m,max_penetration_m,kinetic_energy_j_a_body,"
-    "escaped_bodies,nonfinite_bodies,median_ms\n";
+constexpr std::string_view k_columns = "scene,stabilisation,solve_order,passes,steps,max_drift_m,max_drift_sideways_m,"
+                                       "max_penetration_m,kinetic_energy_j_a_body,"
+                                       "escaped_bodies,nonfinite_bodies,median_ms\n";
 
 std::string csv_row(const cli::RunReport& report, std::uint32_t passes, double median_ms) {
     const cli::Quality& quality = report.quality;
     const double bodies = static_cast<double>(std::max<std::uint64_t>(report.bodies.dynamic, 1));
-    return fmt::format("\"{}\",{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{:.6g}\n", report.scene,
-                       cli::word_of(cli::stabilisation_words(), report.settings.stabilisation), passes,
-                       report.timing.steps, quality.max_drift, quality.max_drift_sideways, quality.max_penetration,
+    return fmt::format("\"{}\",{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{:.6g}\n", report.scene,
+                       cli::word_of(cli::stabilisation_words(), report.settings.stabilisation),
+                       cli::word_of(cli::solve_order_words(), report.settings.solve_order), passes, report.timing.steps,
+                       quality.max_drift, quality.max_drift_sideways, quality.max_penetration,
                        quality.kinetic_energy / bodies, quality.escaped_bodies, report.nonfinite_bodies(), median_ms);
 }
 
@@ -45,8 +46,8 @@ std::uint64_t measure_solver_curves(const BenchOptions& given, std::FILE* out) {
 
     std::string csv(k_columns);
     std::uint64_t nonfinite = 0;
-    fmt::print(out, "{:<16} {:<10} {:>6} {:>10} {:>10} {:>10}\n", "scene", "scheme", "passes", "median ms", "drift",
-               "overlap");
+    fmt::print(out, "{:<16} {:<10} {:<10} {:>6} {:>10} {:>10} {:>10}\n", "scene", "scheme", "order", "passes",
+               "median ms", "drift", "overlap");
     const auto measure_point = [&](const Case& bench_case, Stabilisation stabilisation, std::uint32_t passes) {
         cli::SimulationOptions& simulation = options.simulation;
         simulation.stabilisation = stabilisation;
@@ -57,17 +58,21 @@ std::uint64_t measure_solver_curves(const BenchOptions& given, std::FILE* out) {
         const Row row = measure(bench_case, options).talus;
         nonfinite += row.report.nonfinite_bodies();
         csv += csv_row(row.report, passes, row.median_ms());
-        fmt::print(out, "{:<16} {:<10} {:>6} {:>10.4f} {:>10} {:>10}\n", bench_case.scene,
-                   cli::word_of(cli::stabilisation_words(), stabilisation), passes, row.median_ms(),
+        fmt::print(out, "{:<16} {:<10} {:<10} {:>6} {:>10.4f} {:>10} {:>10}\n", bench_case.scene,
+                   cli::word_of(cli::stabilisation_words(), stabilisation),
+                   cli::word_of(cli::solve_order_words(), *simulation.solve_order), passes, row.median_ms(),
                    cli::length_text(row.report.quality.max_drift),
                    cli::length_text(row.report.quality.max_penetration));
         std::fflush(out);
     };
     for (const Case& bench_case : make_cases(options, devices)) {
-        for (const std::uint32_t iterations : k_iterations)
-            measure_point(bench_case, Stabilisation::Baumgarte, iterations);
-        for (const std::uint32_t substeps : k_substeps)
-            measure_point(bench_case, Stabilisation::Soft, substeps);
+        for (const SolveOrder order : {SolveOrder::Coloured, SolveOrder::Sequential}) {
+            options.simulation.solve_order = order;
+            for (const std::uint32_t iterations : k_iterations)
+                measure_point(bench_case, Stabilisation::Baumgarte, iterations);
+            for (const std::uint32_t substeps : k_substeps)
+                measure_point(bench_case, Stabilisation::Soft, substeps);
+        }
     }
     cli::write_output(options.solver_curves, csv);
     return nonfinite;

@@ -14,23 +14,27 @@ set logscale xy
 set xrange [:over eq "time" ? 100 : 200]
 set format y "10^{%T}"
 set grid linecolor rgb "#d8d8d8"
-set key bottom left
+set key top right
 set xlabel over eq "time" ? "ms a step" : "iterations or sub-steps a step"
-x = over eq "time" ? 11 : 3
+x = over eq "time" ? 12 : 4
 
 # The boxes of the pool fall: how far tells nothing there, but how deep they lie in each other does.
 scenes = "stack:height=10 extreme_stack:height=14 pool:boxes=200" # gnuplot reads a name up to its comma
-columns = "5 5 7"
+columns = "6 6 8"
 titles = "'stack: largest drift (m)' 'extreme\\_stack: largest drift (m)' 'pool: largest overlap (m)'"
 
-figure(scheme) = strcol(1) eq word(scenes, i) && strcol(2) eq scheme ? column(y) : NaN
+figure(curve) = strcol(1) eq word(scenes, i) && strcol(2)."-".strcol(3) eq curve ? column(y) : NaN
+curves = "baumgarte-coloured baumgarte-sequential soft-coloured soft-sequential"
+is_soft(curve) = curve[1:4] eq "soft"
+is_coloured(curve) = strstrt(curve, "-coloured") > 0
 set multiplot layout 1,3
 do for [i = 1:3] {
     set title word(titles, i)
     y = int(word(columns, i))
     set yrange [(i == 3 ? 1e-6 : 1e-5):(i == 3 ? 1 : 100)]
-    plot for [scheme in "baumgarte soft"] csv skip 1 using x:(figure(scheme)) with linespoints \
-        pointtype 7 pointsize 0.5 linewidth 2 linecolor rgb (scheme eq "soft" ? "#1668a8" : "#c8581c") \
-        title (scheme eq "soft" ? "soft, sub-steps" : "Baumgarte, iterations")
+    plot for [curve in curves] csv skip 1 using x:(figure(curve)) with linespoints \
+        pointtype (is_coloured(curve) ? 7 : 6) pointsize 0.5 linewidth 2 dashtype 2 - is_coloured(curve) \
+        linecolor rgb (is_soft(curve) ? "#1668a8" : "#c8581c") \
+        title (is_soft(curve) ? "soft, sub-steps" : "Baumgarte, iterations").(is_coloured(curve) ? "" : "; sequential")
 }
 unset multiplot

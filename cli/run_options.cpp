@@ -119,6 +119,8 @@ void add_solver_options(CLI::App& command, SimulationOptions& options) {
         ->type_name("N");
     add_choice(command, "--stabilisation", options.stabilisation, stabilisation_words(),
                "How overlap is undone: sub-steps with soft contacts, or a velocity bias");
+    add_choice(command, "--solve-order", options.solve_order, solve_order_words(),
+               "How a pass goes through the contacts: in batches that share no body, or one after the other");
     add_choice(command, "--broad-phase", options.broad_phase, broad_phase_words(),
                "How pairs are found: sweep and prune, or every pair");
 }
@@ -162,6 +164,7 @@ Settings settings_of(const scenes::Scene& scene, const SimulationOptions& option
     Settings settings = scene.settings;
     if (options.dt) settings.dt = *options.dt;
     if (options.substeps) settings.substeps = settings.max_substeps = *options.substeps;
+    if (options.solve_order) settings.solve_order = *options.solve_order;
     if (options.broad_phase) settings.broad_phase = *options.broad_phase;
     if (options.stabilisation) {
         settings.stabilisation = *options.stabilisation;

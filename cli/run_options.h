@@ -27,6 +27,7 @@ struct SimulationOptions {
     std::optional<std::uint32_t> iterations;
     std::optional<Stabilisation> stabilisation;
     std::optional<BroadPhase> broad_phase;
+    std::optional<SolveOrder> solve_order;
 };
 
 /// Files to write; an empty path is not written.

@@ -13,6 +13,8 @@ constexpr std::array<Word<DeviceKind>, 4> k_devices{
     {{"auto", DeviceKind::Auto}, {"gpu", DeviceKind::Gpu}, {"cpu", DeviceKind::Cpu}, {"hybrid", DeviceKind::Hybrid}}};
 constexpr std::array<Word<BroadPhase>, 2> k_broad_phases{
     {{"sap", BroadPhase::SweepAndPrune}, {"brute", BroadPhase::Brute}}};
+constexpr std::array<Word<SolveOrder>, 2> k_solve_orders{
+    {{"coloured", SolveOrder::Coloured}, {"sequential", SolveOrder::Sequential}}};
 constexpr std::array<Word<Stabilisation>, 2> k_stabilisations{
     {{"soft", Stabilisation::Soft}, {"baumgarte", Stabilisation::Baumgarte}}};
 constexpr std::array<Word<BodyKind>, 3> k_body_kinds{
@@ -25,6 +27,9 @@ Words<DeviceKind> device_words() {
 }
 Words<BroadPhase> broad_phase_words() {
     return k_broad_phases;
+}
+Words<SolveOrder> solve_order_words() {
+    return k_solve_orders;
 }
 Words<Stabilisation> stabilisation_words() {
     return k_stabilisations;

@@ -14,6 +14,7 @@ template <typename T> using Words = std::span<const std::pair<std::string_view, 
 
 Words<DeviceKind> device_words();
 Words<BroadPhase> broad_phase_words();
+Words<SolveOrder> solve_order_words();
 Words<Stabilisation> stabilisation_words();
 Words<BodyKind> body_kind_words();
 

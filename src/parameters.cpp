@@ -55,6 +55,7 @@ Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
     p.colour_capacity = plan.colour_capacity;
     p.overflow_capacity = plan.overflow ? 1 : 0;
     p.table_size = plan.table_size;
+    p.usable_colours = settings.solve_order == SolveOrder::Coloured ? k_max_colours : 0;
     return p;
 }
 

@@ -127,16 +127,17 @@ TEST_F(Bench, solver_curves_have_a_point_for_each_number_of_passes) {
     std::istringstream file(text_of(folder / "curves.csv"));
     std::string line;
     ASSERT_TRUE(std::getline(file, line));
-    EXPECT_EQ(line, "scene,stabilisation,passes,steps,max_drift_m,max_drift_sideways_m,max_penetration_m,"
+    EXPECT_EQ(line, "scene,stabilisation,solve_order,passes,steps,max_drift_m,max_drift_sideways_m,max_penetration_m,"
                     "kinetic_energy_j_a_body,escaped_bodies,nonfinite_bodies,median_ms");
     std::vector<std::string> starts;
     while (std::getline(file, line))
         starts.push_back(line.substr(0, line.find(",4,")));
-    ASSERT_EQ(starts.size(), 20u);
-    EXPECT_EQ(starts.front(), "\"stack:height=2\",baumgarte,1");
-    EXPECT_EQ(starts[12], "\"stack:height=2\",baumgarte,150");
-    EXPECT_EQ(starts[13], "\"stack:height=2\",soft,1");
-    EXPECT_EQ(starts.back(), "\"stack:height=2\",soft,64");
+    ASSERT_EQ(starts.size(), 40u);
+    EXPECT_EQ(starts.front(), "\"stack:height=2\",baumgarte,coloured,1");
+    EXPECT_EQ(starts[12], "\"stack:height=2\",baumgarte,coloured,150");
+    EXPECT_EQ(starts[13], "\"stack:height=2\",soft,coloured,1");
+    EXPECT_EQ(starts[20], "\"stack:height=2\",baumgarte,sequential,1");
+    EXPECT_EQ(starts.back(), "\"stack:height=2\",soft,sequential,64");
 }
 
 TEST_F(Bench, bad_usage_ends_with_2_and_says_what_is_allowed) {

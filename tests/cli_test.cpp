@@ -57,6 +57,7 @@ TEST_F(Program, bad_usage_ends_with_2_and_says_what_is_allowed) {
         {"run stack --device tpu", "auto, gpu, cpu, hybrid"},
         {"run stack --broad-phase bvh", "sap, brute"},
         {"run stack --stabilisation hard", "soft, baumgarte"},
+        {"run stack --solve-order any", "coloured, sequential"},
         {"run stack --show wires", "contacts, aabbs, pairs"},
         {"run stack --report none/report.json", "none/report.json"},
         {"run stack --record .", "folder"},
@@ -82,11 +83,11 @@ TEST_F(Program, report_has_every_key) {
     EXPECT_EQ(ending.errors, "");
     const json report = json_of("report.json");
     EXPECT_EQ(keys_of(report),
-              (std::vector<std::string>{"bodies",     "broad_phase", "colours",    "contacts",         "device",
-                                        "dt",         "growths",     "iterations", "manifolds",        "memory_bytes",
-                                        "pairs",      "quality",     "scene",      "stabilisation",    "stages_ms",
-                                        "state_hash", "step_ms",     "steps",      "steps_per_second", "substeps",
-                                        "threads"}));
+              (std::vector<std::string>{"bodies",    "broad_phase", "colours",    "contacts",    "device",
+                                        "dt",        "growths",     "iterations", "manifolds",   "memory_bytes",
+                                        "pairs",     "quality",     "scene",      "solve_order", "stabilisation",
+                                        "stages_ms", "state_hash",  "step_ms",    "steps",       "steps_per_second",
+                                        "substeps",  "threads"}));
     EXPECT_EQ(keys_of(report["device"]), (std::vector<std::string>{"driver", "kind", "name"}));
     EXPECT_EQ(keys_of(report["bodies"]), (std::vector<std::string>{"dynamic", "kinematic", "static", "total"}));
     EXPECT_EQ(keys_of(report["step_ms"]), (std::vector<std::string>{"max", "mean", "median", "p95"}));
@@ -113,7 +114,8 @@ TEST_F(Program, report_has_every_key) {
 }
 
 TEST_F(Program, options_reach_the_solver) {
-    ASSERT_EQ(run_on_cpu("stack --steps 3 --stabilisation baumgarte --broad-phase brute --dt 0.01 --report a.json "
+    ASSERT_EQ(run_on_cpu("stack --steps 3 --stabilisation baumgarte --broad-phase brute --solve-order sequential --dt "
+                         "0.01 --report a.json "
                          "--quiet")
                   .status,
               0);
@@ -121,6 +123,7 @@ TEST_F(Program, options_reach_the_solver) {
     EXPECT_EQ(report["stabilisation"], "baumgarte");
     EXPECT_EQ(report["iterations"], 10);
     EXPECT_EQ(report["broad_phase"], "brute");
+    EXPECT_EQ(report["solve_order"], "sequential");
     EXPECT_EQ(report["dt"].get<float>(), 0.01f);
     ASSERT_EQ(run_on_cpu("stack --steps 3 --substeps 7 --iterations 2 --report b.json").status, 0);
     EXPECT_EQ(json_of("b.json")["substeps"], 7);

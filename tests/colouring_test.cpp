@@ -11,6 +11,7 @@
 #include "tests/bodies.h"
 #include "tests/devices.h"
 #include "tests/engine_run.h"
+#include "tests/mechanics.h"
 
 namespace talus::tests {
 namespace {
@@ -123,6 +124,24 @@ TEST_P(Colouring, overflow_gives_the_same_bits_as_on_one_thread) {
     run.step(10);
     expected.step(10);
     EXPECT_TRUE(run.motion() == expected.motion());
+}
+
+TEST_P(Colouring, in_sequential_order_there_are_no_colours) {
+    World world = make_world();
+    world.add(bodies_of("stack:height=4"));
+    world.step(3);
+    EXPECT_EQ(world.report().colours, 2u);
+    Settings settings;
+    settings.solve_order = SolveOrder::Sequential;
+    world.set_settings(settings); // contacts that had a colour lose it
+    world.step(40);
+    EXPECT_EQ(world.report().colours, 0u);
+    EXPECT_EQ(world.report().contacts, 16u);
+    EXPECT_LT(largest_speed(world), 0.01f);
+    settings.solve_order = SolveOrder::Coloured;
+    world.set_settings(settings);
+    world.step();
+    EXPECT_EQ(world.report().colours, 2u);
 }
 
 TALUS_ON_EVERY_DEVICE(Colouring);

@@ -259,6 +259,7 @@ TEST_P(Errors, settings_out_of_range_are_refused) {
         bad_settings({"max_linear_speed"}, [](S& s) { s.max_linear_speed = 0.0f; }),
         bad_settings({"max_angular_speed"}, [](S& s) { s.max_angular_speed = k_nan; }),
         bad_settings({"broad_phase"}, [](S& s) { s.broad_phase = BroadPhase{4}; }),
+        bad_settings({"solve_order"}, [](S& s) { s.solve_order = SolveOrder{4}; }),
         bad_settings({"stabilisation"}, [](S& s) { s.stabilisation = Stabilisation{4}; }),
     });
     EXPECT_EQ(world->settings().dt, Settings{}.dt);

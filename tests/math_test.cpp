@@ -359,18 +359,20 @@ RC_GTEST_PROP(Math, ranks_of_any_two_edges_at_a_body_differ, (uint body, uint b,
     if (with_b && !with_c) RC_ASSERT(edge_rank(body, b, with_b) > edge_rank(body, c, with_c));
 }
 
-RC_GTEST_PROP(Math, the_first_free_colour_is_free_and_the_lowest, (uint low, uint high)) {
+RC_GTEST_PROP(Math, the_first_free_colour_is_free_and_the_lowest, (uint low, uint high, uint usable)) {
+    usable %= k_max_colours + 1;
     const std::uint64_t used = std::uint64_t{high} << 32 | low;
-    const uint colour = first_free_colour(low, high);
-    RC_ASSERT(colour <= k_overflow_colour);
+    const uint colour = first_free_colour(low, high, usable);
+    RC_ASSERT(colour < usable || colour == k_overflow_colour);
     if (colour < k_max_colours) RC_ASSERT((used >> colour & 1) == 0);
-    for (uint lower = 0; lower < colour; ++lower)
+    for (uint lower = 0; lower < min(colour, usable); ++lower)
         RC_ASSERT((used >> lower & 1) == 1);
 }
 
 TEST(Math, when_all_colours_are_used_there_is_the_overflow_set) {
-    EXPECT_EQ(first_free_colour(UINT32_MAX, UINT32_MAX), k_overflow_colour);
-    EXPECT_EQ(first_free_colour(UINT32_MAX, 0x7fffffffu), 63u);
+    EXPECT_EQ(first_free_colour(UINT32_MAX, UINT32_MAX, k_max_colours), k_overflow_colour);
+    EXPECT_EQ(first_free_colour(UINT32_MAX, 0x7fffffffu, k_max_colours), 63u);
+    EXPECT_EQ(first_free_colour(0, 0, 0), k_overflow_colour);
 }
 
 TEST(Math, launches_cover_their_items_within_the_limits_of_a_dimension) {

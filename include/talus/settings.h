@@ -36,6 +36,12 @@ enum class Stabilisation : std::uint32_t {
     Baumgarte, ///< one step, many iterations, velocity bias β/Δt · d (thesis, equation 3.17)
 };
 
+/// In what order a pass of the solver goes through the contacts.
+enum class SolveOrder : std::uint32_t {
+    Coloured,   ///< batches of manifolds that share no body, each solved side by side
+    Sequential, ///< one manifold after the other, as their pairs were found (thesis, section 3.4): for comparison; slow
+};
+
 /// What may change while a world runs.
 struct Settings {
     Vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s²
@@ -52,6 +58,7 @@ struct Settings {
     float max_linear_speed = 500.0f;    ///< m/s; bodies are held to it
     float max_angular_speed = 200.0f;   ///< rad/s
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
+    SolveOrder solve_order = SolveOrder::Coloured;
 };
 
 /// How many of each thing the first buffers have room for; 0 leaves it to Talus. They grow as needed, so this only

@@ -47,7 +47,7 @@ uint free_colour(Edge edge)
             high |= body_colours[body_word(edge.body[end], k_used_high)];
         }
     }
-    return first_free_colour(low, high);
+    return first_free_colour(low, high, parameters.usable_colours);
 }
 
 void propose(uint entry, uint rank_word)

@@ -30,7 +30,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
             low |= state.body_colours[body_word(body, k_used_low)];
             high |= state.body_colours[body_word(body, k_used_high)];
         }
-        const uint colour = first_free_colour(low, high);
+        const uint colour = first_free_colour(low, high, state.parameters.usable_colours);
         state.manifold_keys[edge.pair] = colour;
         if (colour == k_overflow_colour) {
             ++state.counters[k_counter_overflow_count];

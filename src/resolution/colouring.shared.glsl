@@ -25,11 +25,14 @@ inline uint edge_rank(uint body_a, uint body_b, bool both_movable)
     return 2u * x + 1u + (both_movable ? k_both_movable : 0u);
 }
 
-// The lowest colour that is free in both sets of used colours (64 bits in two words), or the overflow set.
-inline uint first_free_colour(uint used_low, uint used_high)
+// The lowest of the first `usable` colours that is free in both sets of used colours (64 bits in two words), or the
+// overflow set.
+inline uint first_free_colour(uint used_low, uint used_high, uint usable)
 {
-    if (used_low != 0xffffffffu) return uint(findLSB(~used_low));
-    return used_high != 0xffffffffu ? 32u + uint(findLSB(~used_high)) : k_overflow_colour;
+    uint colour = k_overflow_colour;
+    if (used_high != 0xffffffffu) colour = 32u + uint(findLSB(~used_high));
+    if (used_low != 0xffffffffu) colour = uint(findLSB(~used_low));
+    return colour < usable ? colour : k_overflow_colour;
 }
 
 // Words of BodyColours, four a body.

@@ -38,7 +38,7 @@ void main()
         atomicAdd(counters[k_counter_contact_count], manifold.point_count);
         atomicMax(counters[k_counter_substep_demand], manifold.substeps);
         colour = manifold.colour;
-        if (colour < k_max_colours) {
+        if (colour < parameters.usable_colours) {
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
             atomicMax(counters[k_counter_colour_demand], colour + 1u);

@@ -20,7 +20,7 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
             state.counters[k_counter_contact_count] += manifold.point_count;
             state.counters[k_counter_substep_demand] = max(state.counters[k_counter_substep_demand], manifold.substeps);
             colour = manifold.colour;
-            if (colour < k_max_colours) {
+            if (colour < state.parameters.usable_colours) {
                 use_colour(manifold.body_a, colour);
                 use_colour(manifold.body_b, colour);
                 state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);

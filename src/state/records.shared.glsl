@@ -207,7 +207,7 @@ struct Parameters {
     uint colour_capacity;
     uint overflow_capacity; // 1 where the overflow set has launches
     uint table_size; // slots of the pair table, a power of two
+    uint usable_colours; // 0 where manifolds are solved one after the other
     uint reserved_1;
     uint reserved_2;
-    uint reserved_3;
 };
