@@ -14,6 +14,9 @@ constexpr float k_speculative_distance = 0.02f;
 // Overlap that Baumgarte's bias leaves alone, so that contacts at rest do not come and go (m).
 constexpr float k_baumgarte_slop = 0.005f;
 
+// A body with more contacts than this is a hub. Fewer would cost a launch each.
+constexpr uint k_hub_contacts = 32;
+
 // Loads are counted in weights; without gravity, in those of the Earth (m/s²).
 constexpr float k_standard_gravity = 9.81f;
 
@@ -55,7 +58,10 @@ Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
     p.colour_capacity = plan.colour_capacity;
     p.overflow_capacity = plan.overflow ? 1 : 0;
     p.table_size = plan.table_size;
-    p.usable_colours = settings.solve_order == SolveOrder::Coloured ? k_max_colours : 0;
+    const bool coloured = settings.solve_order == SolveOrder::Coloured;
+    p.usable_colours = coloured ? k_first_hub_colour : 0;
+    p.hub_contacts = coloured && !plan.bounces ? k_hub_contacts : k_none;
+    p.hub_capacity = plan.hub_capacity;
     return p;
 }
 

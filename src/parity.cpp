@@ -109,7 +109,7 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     simulation.reserve_pairs(2 * simulation.plan_step(population).pair_capacity); // the next step fits
 
     StepPlan plan = simulation.plan_step(population);
-    plan.colour_capacity = k_max_colours;
+    plan.colour_capacity = k_first_hub_colour;
     plan.overflow = true;
     Device& cpu = simulation.state_device();
     const std::unique_ptr<Device> gpu = make_gl_device(GlContext::Own, false);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "parameters.h"
+#include "state/formulas.h"
 
 namespace talus::engine {
 namespace {
@@ -25,10 +26,10 @@ constexpr uint k_most_substeps_of_all = 32;
 constexpr uint k_demand_window = 64;
 
 constexpr std::array k_body_buffers{
-    BufferId::Poses,      BufferId::Velocities, BufferId::Shapes,      BufferId::Properties,
-    BufferId::Loads,      BufferId::Aabbs,      BufferId::SortKeys,    BufferId::SortValues,
-    BufferId::PairCounts, BufferId::SpreadSums, BufferId::SortedAabbs, BufferId::Inertias,
-    BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,     BufferId::Substeps,
+    BufferId::Poses,       BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
+    BufferId::Aabbs,       BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
+    BufferId::SortedAabbs, BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,
+    BufferId::Substeps,    BufferId::Hubs,
 };
 
 constexpr std::array k_pair_buffers{
@@ -80,9 +81,10 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::Counters, k_counter_words);
     grow_everywhere(BufferId::Dispatches, k_dispatch_count);
     grow_everywhere(BufferId::SweepAxes, 1);
+    grow_everywhere(BufferId::HubChanges, 1);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
-    plan.colour_capacity = std::min(first(options.capacities.colours, k_first_colours), k_max_colours);
+    plan.colour_capacity = std::min(first(options.capacities.colours, k_first_colours), k_first_hub_colour);
 }
 
 Simulation::~Simulation() = default;
@@ -102,7 +104,7 @@ void Simulation::reserve_bodies(uint count) {
     const uint capacity = std::max(count, with_headroom(body_capacity));
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
-    grow_everywhere(BufferId::BodyColours, std::size_t{4} * capacity);
+    grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
     body_capacity = capacity;
 }
 
@@ -118,6 +120,11 @@ void Simulation::reserve_pairs(uint count) {
     grow_everywhere(BufferId::PairTable, table_size);
     plan.pair_capacity = capacity; // only now: a buffer may have no room
     plan.table_size = table_size;
+}
+
+void Simulation::reserve_hub_manifolds(uint count) {
+    grow_everywhere(BufferId::HubChanges, count);
+    plan.hub_capacity = count;
 }
 
 void Simulation::write_bytes(BufferId buffer, std::size_t offset, std::span<const std::byte> bytes) {
@@ -145,7 +152,7 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.relax = passes.relax;
     now.small = population.slots <= k_island_bodies;
     now.one_island = population.some_kinematic;
-    now.in_groups = now.small && placement.resolution->loops_freely();
+    now.in_groups = now.small && plan.hub_capacity == 0 && placement.resolution->loops_freely();
     now.bounces = population.some_bounce;
     now.least_substeps = passes.least_substeps;
     now.most_substeps = now.small ? passes.most_substeps
@@ -194,6 +201,7 @@ void Simulation::finish_oldest() {
     report.manifolds = counters[k_counter_manifold_count];
     report.contacts = counters[k_counter_contact_count];
     report.colours = counters[k_counter_colour_demand];
+    report.hubs = counters[k_counter_hub_count];
     report.overflow_manifolds = counters[k_counter_overflow_count];
     report.substeps = counters[k_counter_substep_demand];
     report.frozen_bodies = counters[k_counter_frozen_bodies];
@@ -207,20 +215,24 @@ void Simulation::finish_oldest() {
             report.stage_ms[i] += detection_ms[i];
     }
     report.step_ms = std::accumulate(report.stage_ms.begin(), report.stage_ms.end(), 0.0);
-    follow_demand(report.colours, report.overflow_manifolds, report.substeps);
+    follow_demand(counters);
 }
 
-void Simulation::follow_demand(uint colours, uint overflow, uint substeps) {
-    if (overflow > 0) plan.overflow = true;
-    const uint wanted_colours = std::min(colours + 1, k_max_colours); // one to spare
+void Simulation::follow_demand(std::span<const uint> counters) {
+    const uint colours = counters[k_counter_colour_demand], substeps = counters[k_counter_substep_demand];
+    const uint hub_manifolds = counters[k_counter_hub_manifolds];
+    if (counters[k_counter_overflow_count] > 0) plan.overflow = true;
+    const uint wanted_colours = std::min(colours + 1, k_first_hub_colour); // one to spare
     plan.colour_capacity = std::max(plan.colour_capacity, wanted_colours);
     plan.substep_capacity = std::max(plan.substep_capacity, substeps);
     window_colours = std::max(window_colours, wanted_colours);
     window_substeps = std::max(window_substeps, substeps);
+    window_hub_manifolds = std::max(window_hub_manifolds, hub_manifolds);
     if (++window_steps < k_demand_window) return;
     plan.colour_capacity = window_colours;
     plan.substep_capacity = window_substeps;
-    window_steps = window_colours = window_substeps = 0;
+    if (window_hub_manifolds == 0) plan.hub_capacity = 0;
+    window_steps = window_colours = window_substeps = window_hub_manifolds = 0;
 }
 
 void Simulation::make_room_for_pairs(uint demand) {
@@ -234,9 +246,8 @@ void Simulation::make_room_for_pairs(uint demand) {
 void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
-    if ((reasons & (k_fit_colours | k_fit_substeps)) != 0)
-        follow_demand(counters[k_counter_colour_demand], counters[k_counter_overflow_count],
-                      counters[k_counter_substep_demand]);
+    const uint hub_manifolds = counters[k_counter_hub_manifolds];
+    if ((reasons & (k_fit_colours | k_fit_substeps)) != 0) follow_demand(counters);
     ++growths;
     newest_has_poses = false; // the ring goes on, and soon has no room for that frame
 
@@ -252,6 +263,7 @@ void Simulation::redo(std::span<const uint> counters) {
     device.write(BufferId::Counters, k_counter_did_not_fit * sizeof(uint), std::as_bytes(std::span(&fits, 1)));
     // Where there is no room, the error leaves the world as it was before these steps.
     if ((reasons & k_fit_pairs) != 0) make_room_for_pairs(pair_demand);
+    if ((reasons & k_fit_hubs) != 0) reserve_hub_manifolds(with_headroom(hub_manifolds));
     for (const Pending& entry : again)
         enqueue(entry);
 }

@@ -65,7 +65,8 @@ private:
     void finish_oldest();
     void make_room_for_pairs(uint demand);
     void redo(std::span<const uint> counters);
-    void follow_demand(uint colours, uint overflow, uint substeps);
+    void follow_demand(std::span<const uint> counters);
+    void reserve_hub_manifolds(uint count);
 
     std::unique_ptr<Device> gpu;
     std::unique_ptr<Device> cpu;
@@ -81,6 +82,7 @@ private:
     uint window_steps = 0;   ///< since the demand was last looked at
     uint window_colours = 0; ///< most colours since
     uint window_substeps = 0;
+    uint window_hub_manifolds = 0;
     StepReport newest_report;
     Ticket newest_ticket = 0;
     bool newest_has_poses = false;

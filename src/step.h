@@ -21,6 +21,7 @@ struct StepPlan {
     uint table_size = 0;      ///< slots of PairTable
     uint colour_capacity = 0; ///< colours that get launches
     bool overflow = false;    ///< the overflow set gets launches
+    uint hub_capacity = 0;    ///< manifolds of hubs that there is room for; 0: hubs get no launches
     bool small = false;       ///< small enough for islands, each with sub-steps of its own
     bool one_island = false;  ///< islands are not told apart: a kinematic body may be part of several
     bool in_groups = false;   ///< one work group solves an island

@@ -39,7 +39,7 @@ public:
         engine::StepPlan plan = simulation.plan_step(table.population());
         plan.in_groups = false;
         plan.substep_capacity = plan.most_substeps;
-        plan.colour_capacity = engine::k_max_colours;
+        plan.colour_capacity = engine::k_first_hub_colour;
         plan.overflow = true;
         step_as(plan);
     }

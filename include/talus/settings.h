@@ -66,7 +66,7 @@ struct Settings {
 struct Capacities {
     std::uint32_t bodies = 0;  ///< at most 16,777,216
     std::uint32_t pairs = 0;   ///< at most 268,435,456
-    std::uint32_t colours = 0; ///< at most 64
+    std::uint32_t colours = 0; ///< at most 64; two of them are for hubs and are always there
 };
 
 /// What is fixed when a world is made.

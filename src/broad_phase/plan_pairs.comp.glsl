@@ -23,6 +23,8 @@ void main()
     counters[k_counter_colour_demand] = 0u;
     counters[k_counter_overflow_count] = 0u;
     counters[k_counter_uncoloured] = 0u;
+    counters[k_counter_hub_count] = 0u;
+    counters[k_counter_hub_manifolds] = 0u;
     counters[k_counter_substep_demand] = parameters.least_substeps;
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);

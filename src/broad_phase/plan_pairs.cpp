@@ -17,6 +17,8 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch&) {
     counters[k_counter_colour_demand] = 0;
     counters[k_counter_overflow_count] = 0;
     counters[k_counter_uncoloured] = 0;
+    counters[k_counter_hub_count] = 0;
+    counters[k_counter_hub_manifolds] = 0;
     counters[k_counter_substep_demand] = state.parameters.least_substeps;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     state.dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One group: colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its
-// bodies takes the smallest colour free at both (Jones and Plassmann).
+// bodies takes the smallest colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count
+// as bodies here.
 // Reads: Counters, Manifolds, Shapes.
-// Writes: ManifoldKeys (the colour), Counters; BodyColours and Uncoloured as it goes.
+// Writes: ManifoldKeys (the colour), Counters, Hubs (in any order); BodyColours and Uncoloured as it goes.
 // Needs: a barrier after keep_colours.
-// Overflow: a manifold with no colour left at its bodies joins the overflow set.
+// Overflow: a manifold with no colour left at its bodies joins the overflow set, and so does one of two hubs.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/colouring.shared.glsl"
@@ -17,13 +18,15 @@ layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) writeonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) coherent buffer BodyColours { uint body_colours[]; };
 layout(std430) coherent buffer Uncoloured { uint uncoloured[]; };
+layout(std430) writeonly buffer Hubs { uint hubs[]; };
 
 shared uint left_over; // manifolds that wait for a later round
 
 struct Edge {
     uint rank;
     uint body[2];
-    bool movable[2];
+    bool obstructs[2]; // the body may be in a colour once only
+    bool of_hub[2];
 };
 
 Edge load_edge(uint pair)
@@ -31,9 +34,13 @@ Edge load_edge(uint pair)
     Edge edge;
     edge.body[0] = manifolds[pair].body_a;
     edge.body[1] = manifolds[pair].body_b;
-    for (uint end = 0u; end < 2u; ++end)
-        edge.movable[end] = is_movable(shapes[edge.body[end]]);
-    edge.rank = edge_rank(edge.body[0], edge.body[1], edge.movable[0] && edge.movable[1]);
+    bool movable[2];
+    for (uint end = 0u; end < 2u; ++end) {
+        movable[end] = is_movable(shapes[edge.body[end]]);
+        edge.of_hub[end] = body_colours[body_word(edge.body[end], k_hub_word)] != 0u;
+        edge.obstructs[end] = movable[end] && !edge.of_hub[end];
+    }
+    edge.rank = edge_rank(edge.body[0], edge.body[1], movable[0] && movable[1]);
     return edge;
 }
 
@@ -42,12 +49,24 @@ uint free_colour(Edge edge)
     uint low = 0u;
     uint high = 0u;
     for (uint end = 0u; end < 2u; ++end) {
-        if (edge.movable[end]) {
+        if (edge.obstructs[end]) {
             low |= body_colours[body_word(edge.body[end], k_used_low)];
             high |= body_colours[body_word(edge.body[end], k_used_high)];
         }
     }
+    if (edge.of_hub[0] && edge.of_hub[1]) return k_overflow_colour;
+    if (edge.of_hub[0] || edge.of_hub[1]) return first_free_hub_colour(high);
     return first_free_colour(low, high, parameters.usable_colours);
+}
+
+void find_hub(uint body)
+{
+    uint low = body_colours[body_word(body, k_used_low)];
+    uint high = body_colours[body_word(body, k_used_high)];
+    uint new_edges = body_colours[body_word(body, k_new_edges)];
+    if (!is_hub(low, high, new_edges, parameters)) return;
+    if (atomicOr(body_colours[body_word(body, k_hub_word)], k_is_hub) == 0u)
+        hubs[atomicAdd(counters[k_counter_hub_count], 1u)] = body;
 }
 
 void propose(uint entry, uint rank_word)
@@ -62,7 +81,7 @@ void propose(uint entry, uint rank_word)
         return;
     }
     for (uint end = 0u; end < 2u; ++end) {
-        if (edge.movable[end]) atomicMax(body_colours[body_word(edge.body[end], rank_word)], edge.rank);
+        if (edge.obstructs[end]) atomicMax(body_colours[body_word(edge.body[end], rank_word)], edge.rank);
     }
 }
 
@@ -73,7 +92,7 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
     Edge edge = load_edge(pair);
     bool wins = true;
     for (uint end = 0u; end < 2u; ++end) {
-        if (edge.movable[end]) {
+        if (edge.obstructs[end]) {
             wins = wins && body_colours[body_word(edge.body[end], rank_word)] == edge.rank;
             body_colours[body_word(edge.body[end], next_rank_word)] = 0u;
         }
@@ -85,10 +104,14 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
     uint colour = free_colour(edge);
     uint word = colour < 32u ? k_used_low : k_used_high;
     for (uint end = 0u; end < 2u; ++end) {
-        if (edge.movable[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (colour & 31u);
+        if (edge.obstructs[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (colour & 31u);
+        if (edge.of_hub[end]) atomicAdd(body_colours[body_word(edge.body[end], k_hub_word)], 1u);
     }
     manifold_keys[pair] = colour;
-    atomicMax(counters[k_counter_colour_demand], colour + 1u);
+    if (colour < k_first_hub_colour)
+        atomicMax(counters[k_counter_colour_demand], colour + 1u);
+    else
+        atomicAdd(counters[k_counter_hub_manifolds], 1u);
     uncoloured[entry] = k_none;
 }
 
@@ -96,6 +119,12 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     uint entry_count = counters[k_counter_uncoloured];
+    for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x) {
+        find_hub(manifolds[uncoloured[entry]].body_a);
+        find_hub(manifolds[uncoloured[entry]].body_b);
+    }
+    groupMemoryBarrier();
+    barrier();
     uint rank_word = k_best_rank;
     bool done = entry_count == 0u;
     while (!done) {

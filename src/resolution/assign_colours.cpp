@@ -21,26 +21,46 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         edges[i] = {edge_rank(a, b, is_movable(state.shapes[a]) && is_movable(state.shapes[b])), pair};
     }
     std::ranges::sort(edges, std::greater{}, &Edge::rank);
+    const auto word_of = [&](uint body, uint word) -> uint& { return state.body_colours[body_word(body, word)]; };
+    for (const Edge& edge : edges) {
+        for (const uint body : {state.manifolds[edge.pair].body_a, state.manifolds[edge.pair].body_b}) {
+            if (word_of(body, k_hub_word) != 0 || !is_hub(word_of(body, k_used_low), word_of(body, k_used_high),
+                                                          word_of(body, k_new_edges), state.parameters))
+                continue;
+            word_of(body, k_hub_word) = k_is_hub;
+            state.hubs[state.counters[k_counter_hub_count]++] = body;
+        }
+    }
 
     for (const Edge& edge : edges) {
         const Manifold& manifold = state.manifolds[edge.pair];
-        uint low = 0, high = 0;
+        uint low = 0, high = 0, hubs = 0;
         for (const uint body : {manifold.body_a, manifold.body_b}) {
-            if (!is_movable(state.shapes[body])) continue;
-            low |= state.body_colours[body_word(body, k_used_low)];
-            high |= state.body_colours[body_word(body, k_used_high)];
+            if (word_of(body, k_hub_word) != 0) {
+                ++hubs;
+            } else if (is_movable(state.shapes[body])) {
+                low |= word_of(body, k_used_low);
+                high |= word_of(body, k_used_high);
+            }
         }
-        const uint colour = first_free_colour(low, high, state.parameters.usable_colours);
+        uint colour = k_overflow_colour;
+        if (hubs == 0) colour = first_free_colour(low, high, state.parameters.usable_colours);
+        if (hubs == 1) colour = first_free_hub_colour(high);
         state.manifold_keys[edge.pair] = colour;
         if (colour == k_overflow_colour) {
             ++state.counters[k_counter_overflow_count];
             continue;
         }
-        state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
         for (const uint body : {manifold.body_a, manifold.body_b}) {
-            if (is_movable(state.shapes[body]))
-                state.body_colours[body_word(body, colour < 32 ? k_used_low : k_used_high)] |= 1u << (colour & 31u);
+            if (word_of(body, k_hub_word) != 0)
+                ++word_of(body, k_hub_word);
+            else if (is_movable(state.shapes[body]))
+                word_of(body, colour < 32 ? k_used_low : k_used_high) |= 1u << (colour & 31u);
         }
+        if (colour < k_first_hub_colour)
+            state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
+        else
+            ++state.counters[k_counter_hub_manifolds];
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: no colour in use, no rank seen.
+// One invocation is a body slot: no colour in use, no rank seen, no hub.
 // Reads: nothing.
 // Writes: BodyColours.
 // Needs: nothing.
@@ -14,6 +14,6 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    for (uint word = 0u; word < 4u; ++word)
+    for (uint word = 0u; word < k_body_words; ++word)
         body_colours[body_word(body, word)] = 0u;
 }

@@ -35,9 +35,38 @@ inline uint first_free_colour(uint used_low, uint used_high, uint usable)
     return colour < usable ? colour : k_overflow_colour;
 }
 
-// Words of BodyColours, four a body.
+// The same for a manifold of a hub: at its other body.
+inline uint first_free_hub_colour(uint used_high)
+{
+    uint free = ~used_high >> (k_first_hub_colour - 32u);
+    return free != 0u ? k_first_hub_colour + uint(findLSB(free)) : k_overflow_colour;
+}
+
+// Words of BodyColours.
 const uint k_used_low = 0u;  // colours 0-31 in use at the body, a bit each
 const uint k_used_high = 1u; // colours 32-63
 const uint k_best_rank = 2u; // highest rank of the uncoloured edges; two words that take turns, round by round
+const uint k_new_edges = 4u; // edges that had no colour at the start of the step
+const uint k_hub_word = 5u;  // k_is_hub, and the number of edges that have got a colour for hubs
+const uint k_body_words = 6u;
 
-inline uint body_word(uint body, uint word) { return 4u * body + word; }
+inline uint body_word(uint body, uint word) { return k_body_words * body + word; }
+
+// ---- hubs ----
+//
+// A body with more contacts than there are colours would have most of them solved one after the other. Such a hub does
+// not stand in the way of a colour: its edges take one of the last colours, in which only their other bodies must
+// differ. See contact_constraint.shared.glsl for what that means to the solver.
+
+const uint k_is_hub = 0x80000000u;
+
+inline bool is_hub(uint used_low, uint used_high, uint new_edges, Parameters p)
+{
+    return uint(bitCount(used_low)) + uint(bitCount(used_high)) + new_edges > p.hub_contacts;
+}
+
+// For BodyInertia::traits.
+inline uint hub_traits(uint hub_word)
+{
+    return hub_word != 0u ? k_trait_hub | ((hub_word & ~k_is_hub) << k_trait_shares) : 0u;
+}

@@ -2,17 +2,83 @@
 // From a manifold to the solver's record of it, and back.
 // Needs resolution/manifold_rows.shared.glsl and softness.shared.glsl.
 
+// ---- hubs ----
+//
+// The constraints in a hub's colour are solved side by side, though they share a body. Each is given a share of the hub,
+// with an n-th of its mass and inertia where n are solved so. What they do to their shares is then added up: the hub
+// moves as the mean of its shares, and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid
+// Body Simulation", 2012).
+
+// Of both bodies. In the other colours a hub is a body as others are.
+inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
+{
+    uint mask = k_trait_movable | k_trait_round;
+    if (colour >= k_first_hub_colour && colour < k_max_colours) mask |= k_trait_hub;
+    return (a.traits & mask) | ((b.traits & mask) << k_traits_of_b);
+}
+
+inline float share_inverse_mass(float inverse_mass, BodyInertia m, uint its_traits)
+{
+    precise float of_share = inverse_mass * float(m.traits >> k_trait_shares);
+    return (its_traits & k_trait_hub) != 0u ? of_share : inverse_mass;
+}
+
+// What a constraint does to the hub itself, of the velocities that its share had before and has after a pass. The linear
+// part is the hub's already, as BodyVelocity::inverse_mass is.
+inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity after, BodyInertia m)
+{
+    precise vec3 linear = after.linear - before.linear;
+    precise vec3 angular = (after.angular - before.angular) * reciprocal(float(m.traits >> k_trait_shares));
+    HubChange change;
+    change.linear = linear;
+    change.body = body;
+    change.angular = angular;
+    change.reserved = 0.0f;
+    return change;
+}
+
+inline HubChange no_change(uint body)
+{
+    HubChange none;
+    none.linear = vec3(0.0f, 0.0f, 0.0f);
+    none.body = body;
+    none.angular = vec3(0.0f, 0.0f, 0.0f);
+    none.reserved = 0.0f;
+    return none;
+}
+
+inline HubChange add_changes(HubChange a, HubChange b)
+{
+    precise vec3 linear = a.linear + b.linear;
+    precise vec3 angular = a.angular + b.angular;
+    a.linear = linear;
+    a.angular = angular;
+    return a;
+}
+
+inline BodyVelocity move_hub(BodyVelocity velocity, HubChange change)
+{
+    precise vec3 linear = velocity.linear + change.linear;
+    precise vec3 angular = velocity.angular + change.angular;
+    velocity.linear = linear;
+    velocity.angular = angular;
+    return velocity;
+}
+
 // ---- from a manifold to a constraint ----
 
 // Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
 // cannot be pushed: the other's number holds.
-inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, float inverse_masses,
-                                          BodyInertia inertia_a, BodyInertia inertia_b)
+inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, float inverse_mass_a,
+                                          float inverse_mass_b, BodyInertia inertia_a, BodyInertia inertia_b)
 {
     bool pushes_a = (inertia_a.traits & k_trait_movable) != 0u;
     bool pushes_b = (inertia_b.traits & k_trait_movable) != 0u;
     vec3 none = vec3(0.0f, 0.0f, 0.0f);
     vec4 no_points = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    uint traits = traits_of_constraint(inertia_a, inertia_b, colour);
+    precise float inverse_masses = share_inverse_mass(inverse_mass_a, inertia_a, traits) +
+                                   share_inverse_mass(inverse_mass_b, inertia_b, traits >> k_traits_of_b);
     ContactConstraint c;
     c.body_a = manifold.body_a;
     c.body_b = manifold.body_b;
@@ -25,7 +91,7 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.centre_b = none;
     c.inverse_masses = inverse_masses;
     c.gap = none;
-    c.traits = inertia_a.traits | (inertia_b.traits << k_traits_of_b);
+    c.traits = traits;
     c.friction_mass = none;
     c.substeps = max(max(pushes_a ? inertia_a.substeps : 1u, pushes_b ? inertia_b.substeps : 1u), 1u);
     c.x = no_points;

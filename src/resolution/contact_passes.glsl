@@ -4,6 +4,7 @@
 //   void store_velocity(uint body, BodyVelocity velocity)
 //   Substep substep_of(uint substeps, bool against_static)
 //   const bool k_bounces, whether there may be a restitution above 0
+//   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
 // Reads: Inertias, Deltas. Reads and writes: Constraints (their impulses), WarmStarts.
@@ -104,10 +105,21 @@ ManifoldState pass_over_hit(uint index, float old_share)
     return end_hit(before, hit, old_share);
 }
 
+// A body that contacts cannot push may be in many constraints of one colour: nobody writes it. Nor a hub.
+void put_velocity(uint index, uint body, uint its_traits, BodyVelocity before, BodyVelocity after)
+{
+    if (after.inverse_mass == 0.0) return;
+    if (k_hubs && (its_traits & k_trait_hub) != 0u)
+        put_change(index, change_of_hub(body, before, after, inertias[body]));
+    else
+        store_velocity(body, after);
+}
+
 // One pass over the constraint in hand, whose index it is.
 void pass_over_constraint(uint pass, uint index, PassTarget target)
 {
     ManifoldState s = begin_pass();
+    VelocityPair before = s.velocities;
     if (pass == k_warm_start)
         s.velocities = warm_start_manifold(s.velocities, rows, impulses);
     else
@@ -117,7 +129,6 @@ void pass_over_constraint(uint pass, uint index, PassTarget target)
         s = pass_over_hit(index, target.old_share);
     }
     impulses = s.impulses;
-    // A body that contacts cannot push may be in many constraints of one colour: nobody writes it.
-    if (s.velocities.a.inverse_mass > 0.0) store_velocity(body_a, s.velocities.a);
-    if (s.velocities.b.inverse_mass > 0.0) store_velocity(body_b, s.velocities.b);
+    put_velocity(index, body_a, traits, before.a, s.velocities.a);
+    put_velocity(index, body_b, traits >> k_traits_of_b, before.b, s.velocities.b);
 }

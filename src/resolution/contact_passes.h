@@ -52,6 +52,17 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     return end_hit(before, hit, target.old_share);
 }
 
+/// A body that contacts cannot push may be in many constraints of one colour: nobody writes it. Nor a hub.
+inline void put_velocity(CpuState& state, uint index, uint body, uint its_traits, const BodyVelocity& before,
+                         const BodyVelocity& after) {
+    if (after.inverse_mass == 0.0f) return;
+    if ((its_traits & k_trait_hub) == 0)
+        state.velocities[body] = after;
+    else
+        state.hub_changes[index - state.colour_offsets[k_first_hub_colour]] =
+            change_of_hub(body, before, after, state.inertias[body]);
+}
+
 inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep, uint index) {
     ContactConstraint& c = state.constraints[index];
     if (substep >= c.substeps) return;
@@ -70,9 +81,8 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep
         c.normal_impulse = s.impulses.normal;
         c.total_impulse = s.impulses.total;
     }
-    // A body that contacts cannot push may be in many constraints of one colour: nobody writes it.
-    if (s.velocities.a.inverse_mass > 0.0f) state.velocities[c.body_a] = s.velocities.a;
-    if (s.velocities.b.inverse_mass > 0.0f) state.velocities[c.body_b] = s.velocities.b;
+    put_velocity(state, index, c.body_a, c.traits, before.velocities.a, s.velocities.a);
+    put_velocity(state, index, c.body_b, c.traits >> k_traits_of_b, before.velocities.b, s.velocities.b);
 }
 
 } // namespace talus::engine

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
-// is valid), a new one is listed as uncoloured. Also counts manifolds and contact points.
+// is valid), a new one is listed as uncoloured, and so is a hub's, as it may be one no longer. Also counts manifolds and
+// contact points.
 // Reads: Manifolds, Shapes.
 // Writes: ManifoldKeys (the colour), ManifoldOrder (the pair), BodyColours, Uncoloured, Counters. The order of the list
 // depends on who comes first; nothing that is made from it does.
@@ -27,6 +28,11 @@ void use_colour(uint body, uint colour)
     atomicOr(body_colours[body_word(body, word)], 1u << (colour & 31u));
 }
 
+void want_colour(uint body)
+{
+    if (is_movable(shapes[body])) atomicAdd(body_colours[body_word(body, k_new_edges)], 1u);
+}
+
 void main()
 {
     uint pair = item_index();
@@ -44,6 +50,8 @@ void main()
             atomicMax(counters[k_counter_colour_demand], colour + 1u);
         } else {
             uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair;
+            want_colour(manifold.body_a);
+            want_colour(manifold.body_b);
         }
     }
     manifold_keys[pair] = colour;

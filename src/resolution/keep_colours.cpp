@@ -12,6 +12,9 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
         const uint word = colour < 32 ? k_used_low : k_used_high;
         state.body_colours[body_word(body, word)] |= 1u << (colour & 31u);
     };
+    const auto want_colour = [&](uint body) {
+        if (is_movable(state.shapes[body])) ++state.body_colours[body_word(body, k_new_edges)];
+    };
     for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
         const Manifold& manifold = state.manifolds[pair];
         uint colour = k_inactive_colour;
@@ -26,6 +29,8 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
                 state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
             } else {
                 state.uncoloured[state.counters[k_counter_uncoloured]++] = pair;
+                want_colour(manifold.body_a);
+                want_colour(manifold.body_b);
             }
         }
         state.manifold_keys[pair] = colour;

@@ -154,14 +154,30 @@ inline ManifoldRows couple_rows(ManifoldRows rows, NormalResponse r)
     return rows;
 }
 
+// Of a share of a hub. `its_traits`: the constraint's, of this body.
+inline BodyInertia share_inertia(BodyInertia m, uint its_traits)
+{
+    if ((its_traits & k_trait_hub) == 0u) return m;
+    float shares = float(m.traits >> k_trait_shares);
+    precise vec3 diagonal = vec3(m.xx, m.yy, m.zz) * shares;
+    precise vec3 rest = vec3(m.xy, m.xz, m.yz) * shares;
+    m.xx = diagonal.x;
+    m.yy = diagonal.y;
+    m.zz = diagonal.z;
+    m.xy = rest.x;
+    m.xz = rest.y;
+    m.yz = rest.z;
+    return m;
+}
+
 inline Meeting make_meeting(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)
 {
     Meeting m;
     m.frame = contact_frame(c.normal);
     m.centre_a = c.centre_a;
     m.centre_b = c.centre_b;
-    m.inertia_a = inertia_a;
-    m.inertia_b = inertia_b;
+    m.inertia_a = share_inertia(inertia_a, c.traits);
+    m.inertia_b = share_inertia(inertia_b, c.traits >> k_traits_of_b);
     m.inverse_masses = c.inverse_masses;
     return m;
 }

@@ -17,6 +17,9 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     if (!in_groups && counters[k_counter_substep_demand] > state.parameters.substep_capacity)
         counters[k_counter_did_not_fit] |= k_fit_substeps;
 
+    if (counters[k_counter_hub_manifolds] > (in_groups ? 0 : state.parameters.hub_capacity))
+        counters[k_counter_did_not_fit] |= k_fit_hubs;
+
     const uint on = counters[k_counter_did_not_fit] == 0 ? 1 : 0;
     state.dispatches[k_dispatch_bodies] = groups_for(on * state.parameters.body_count, k_group_size);
     state.dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
@@ -26,6 +29,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
         state.dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     }
     state.dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1);
+    state.dispatches[k_dispatch_hubs] = groups_for(on * counters[k_counter_hub_count], 1);
 }
 
 const Kernel plan_colours{"resolution/plan_colours", plan_colours_on_cpu, 1};

@@ -13,6 +13,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         const uint substeps = launch.args[0] == 1 ? state.substeps[body] : state.counters[k_counter_substep_demand];
         state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia, movable,
                                              is_sphere(state.shapes[body]), substeps);
+        state.inertias[body].traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);
         state.deltas[body] = no_delta();
         state.warm_starts[body] = no_warm_start(state.velocities[body]);
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
-// Reads: Counters, Poses, ManifoldOrder, Manifolds, ManifoldPoints, Velocities, Inertias.
+// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, Velocities, Inertias.
 // Writes: Constraints.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
@@ -15,6 +15,7 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Poses { BodyPose poses[]; };
+layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer ManifoldPoints { ManifoldPoint manifold_points[]; };
@@ -30,9 +31,10 @@ void main()
     Manifold manifold = manifolds[manifold_index];
     BodyInertia inertia_a = inertias[manifold.body_a];
     BodyInertia inertia_b = inertias[manifold.body_b];
-    precise float inverse_masses =
-        velocities[manifold.body_a].inverse_mass + velocities[manifold.body_b].inverse_mass;
-    ContactConstraint c = begin_constraint(manifold, manifold_index, inverse_masses, inertia_a, inertia_b);
+    uint colour = manifold_keys[index] & ((1u << k_colour_bits) - 1u);
+    ContactConstraint c =
+        begin_constraint(manifold, manifold_index, colour, velocities[manifold.body_a].inverse_mass,
+                         velocities[manifold.body_b].inverse_mass, inertia_a, inertia_b);
     for (uint i = 0u; i < manifold.point_count; ++i)
         c = add_to_centre(c, manifold_points[4u * manifold_index + i]);
     c = end_centre(c, poses[manifold.body_a].position, poses[manifold.body_b].position);

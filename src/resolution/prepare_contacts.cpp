@@ -12,11 +12,11 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
         const Manifold& manifold = state.manifolds[manifold_index];
         const BodyInertia& inertia_a = state.inertias[manifold.body_a];
         const BodyInertia& inertia_b = state.inertias[manifold.body_b];
-        const float inverse_masses =
-            state.velocities[manifold.body_a].inverse_mass + state.velocities[manifold.body_b].inverse_mass;
+        const uint colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
         const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * manifold_index];
         ContactConstraint& c = state.constraints[index];
-        c = begin_constraint(manifold, manifold_index, inverse_masses, inertia_a, inertia_b);
+        c = begin_constraint(manifold, manifold_index, colour, state.velocities[manifold.body_a].inverse_mass,
+                             state.velocities[manifold.body_b].inverse_mass, inertia_a, inertia_b);
         for (uint i = 0; i < manifold.point_count; ++i)
             c = add_to_centre(c, points[i]);
         c = end_centre(c, state.poses[manifold.body_a].position, state.poses[manifold.body_b].position);

@@ -36,14 +36,18 @@ void prepare(Device& device, const StepPlan& plan) {
     device.run({.kernel = prepare_contacts, .slot = k_dispatch_manifolds});
 }
 
-/// One pass over all manifolds that have this sub-step, colour by colour. The overflow set comes last.
+/// One pass over all manifolds that have this sub-step, colour by colour; those of hubs and the overflow set come last.
 static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass pass, uint substep = 0) {
-    const auto launch = [&](uint colour, uint slot) {
-        device.run({.kernel = solve_contacts, .slot = slot, .args = {colour, static_cast<uint>(pass), substep}});
+    const auto launch = [&](const Kernel& kernel, uint colour, uint slot) {
+        device.run({.kernel = kernel, .slot = slot, .args = {colour, static_cast<uint>(pass), substep}});
     };
     for (uint colour = 0; colour < plan.colour_capacity; ++colour)
-        launch(colour, k_dispatch_colours + colour);
-    if (plan.overflow) launch(k_overflow_colour, k_dispatch_overflow);
+        launch(solve_contacts, colour, k_dispatch_colours + colour);
+    for (uint colour = k_first_hub_colour; plan.hub_capacity > 0 && colour < k_max_colours; ++colour) {
+        launch(solve_hub_contacts, colour, k_dispatch_colours + colour);
+        launch(move_hubs, colour, k_dispatch_hubs);
+    }
+    if (plan.overflow) launch(solve_contacts, k_overflow_colour, k_dispatch_overflow);
 }
 
 void solve(Device& device, const StepPlan& plan) {

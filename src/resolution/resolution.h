@@ -28,6 +28,8 @@ extern const Kernel prepare_bodies;
 extern const Kernel prepare_contacts;
 extern const Kernel integrate_bodies;
 extern const Kernel solve_contacts;
+extern const Kernel solve_hub_contacts;
+extern const Kernel move_hubs;
 extern const Kernel solve_islands;
 extern const Kernel solve_bouncing_islands;
 extern const Kernel store_contact_impulses;

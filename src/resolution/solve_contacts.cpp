@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of solve_contacts.comp.glsl.
+#include "resolution/solve_contacts.h"
 #include "resolution/contact_passes.h"
 #include "resolution/resolution.h"
 
 namespace talus::engine {
 
-static void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
+void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
     const uint colour = launch.args[0], substep = launch.args[2];
     const auto pass = static_cast<ContactPass>(launch.args[1]);
     const uint first = state.colour_offsets[colour];

@@ -16,6 +16,7 @@
 #include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/contact.shared.glsl"
+#include "resolution/contact_constraint.shared.glsl"
 #include "resolution/hit.shared.glsl"
 #include "resolution/island.shared.glsl"
 
@@ -56,6 +57,9 @@ Substep substep_of(uint substeps, bool against_static)
     if (against_static) return substep_against_static;
     return substep_of_moving;
 }
+
+const bool k_hubs = false; // a step that has some is made with a launch for each colour
+void put_change(uint index, HubChange change) {}
 
 #include "resolution/contact_passes.glsl"
 #include "resolution/body_passes.glsl"

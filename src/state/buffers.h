@@ -59,6 +59,8 @@ namespace talus::engine {
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
     X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffufffuffffffffffffffffffffffffffffffffffffffff", \
       Result)                                                                                                          \
+    X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
+    X(HubChanges, hub_changes, HubChange, "fffuffff", Result)                                                          \
     /* control */                                                                                                      \
     X(Counters, counters, uint, "u", State)                                                                            \
     X(Dispatches, dispatches, Dispatch, "uuuu", Result)

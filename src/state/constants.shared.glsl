@@ -22,6 +22,8 @@ const uint k_body_placed = 2u; // the caller put it there since the last step
 // BodyInertia::traits
 const uint k_trait_movable = 1u; // contacts can push the body
 const uint k_trait_round = 2u;   // a sphere: where it is touched does not turn with it
+const uint k_trait_hub = 4u;     // a hub; in a constraint: of whose mass this is a share
+const uint k_trait_shares = 8u;  // from this bit on: the number of shares
 
 // BodyProperties::combine
 const uint k_combine_average = 0u;
@@ -29,8 +31,10 @@ const uint k_combine_minimum = 1u;
 const uint k_combine_maximum = 2u;
 const uint k_combine_multiply = 3u;
 
-// The constraint graph: colours 0 to k_max_colours - 1, then the overflow set, then pairs that do not touch.
+// The constraint graph: colours 0 to k_max_colours - 1, the last of them for contacts of hubs; then the overflow set, then
+// pairs that do not touch.
 const uint k_max_colours = 64u;
+const uint k_first_hub_colour = 62u;
 const uint k_overflow_colour = 64u;
 const uint k_inactive_colour = 127u;
 const uint k_colour_bits = 7u; // of a manifold's key: the colour in the low bits, the island above
@@ -49,12 +53,15 @@ const uint k_counter_did_not_fit = 8u;    // k_fit_* bits; sticky until the host
 const uint k_counter_frozen_bodies = 9u;  // in all steps so far
 const uint k_counter_old_pair_count = 10u; // entries of OldManifolds
 const uint k_counter_substep_demand = 11u; // most sub-steps that a manifold asks for
+const uint k_counter_hub_count = 12u;
+const uint k_counter_hub_manifolds = 13u; // in the colours for hubs
 const uint k_counter_words = 16u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
 const uint k_fit_colours = 2u;
 const uint k_fit_substeps = 4u;
+const uint k_fit_hubs = 8u;
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.
@@ -66,10 +73,12 @@ const uint k_dispatch_manifolds = 4u;  // groups of 64 manifolds
 const uint k_dispatch_islands = 5u;    // one group for each body slot, which may lead an island
 const uint k_dispatch_colours = 6u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
 const uint k_dispatch_overflow = k_dispatch_colours + k_max_colours; // one group if there is an overflow set
-const uint k_dispatch_count = k_dispatch_overflow + 1u;
+const uint k_dispatch_hubs = k_dispatch_overflow + 1u; // one group for each hub
+const uint k_dispatch_count = k_dispatch_hubs + 1u;
 
 const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each
 const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
+const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
 const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island

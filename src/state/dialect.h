@@ -44,6 +44,9 @@ inline uint max(uint a, uint b) {
 inline int findLSB(uint x) {
     return x != 0 ? std::countr_zero(x) : -1;
 }
+inline int bitCount(uint x) {
+    return std::popcount(x);
+}
 inline float abs(float x) {
     return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
 }

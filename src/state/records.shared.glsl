@@ -82,7 +82,7 @@ struct BodyInertia {
     float xy;
     float xz;
     float yz;
-    uint traits;   // k_trait_*
+    uint traits;   // k_trait_*, and from bit k_trait_shares on the shares that a hub's mass is split into
     uint substeps; // sub-steps of its island
 };
 
@@ -154,6 +154,14 @@ struct ContactConstraint {
     vec4 hit_impulse;    // N s, the sum of the step's hits
 };
 
+// 32 bytes, one for each constraint in the colours for hubs: what it does to its hub in a pass.
+struct HubChange {
+    vec3 linear; // m/s
+    uint body;
+    vec3 angular; // rad/s
+    float reserved;
+};
+
 // ---- control ----
 
 // 16 bytes: the arguments of an indirect dispatch, and the number of items that they were made from.
@@ -208,6 +216,6 @@ struct Parameters {
     uint overflow_capacity; // 1 where the overflow set has launches
     uint table_size; // slots of the pair table, a power of two
     uint usable_colours; // 0 where manifolds are solved one after the other
-    uint reserved_1;
-    uint reserved_2;
+    uint hub_contacts;   // a body with more manifolds is a hub
+    uint hub_capacity;   // manifolds of hubs that there is room for; 0 where hubs have no launches
 };

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a manifold of one colour: one pass of sequential impulses over its points (thesis, section 3.4).
+// args.x: the colour; args.y: the pass, k_warm_start, k_solve, ...; args.z: the sub-step. No two manifolds of a colour
+// share a body that they could push. The overflow set is solved one after the other by a single invocation.
+// Before this file the kernel defines k_hubs: whether the colour is one for contacts of hubs. Where there are hubs nothing
+// bounces.
+// Reads: ColourOffsets, Constraints, Inertias, Deltas.
+// Writes: Velocities, WarmStarts, Constraints (impulses), HubChanges.
+// Needs: a barrier after the colour before.
+// Overflow: none; launched empty after a step that did not fit.
+#include "state/math.shared.glsl"
+#include "resolution/body.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
+#include "resolution/softness.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
+#include "resolution/contact.shared.glsl"
+#include "resolution/contact_constraint.shared.glsl"
+#include "resolution/hit.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
+layout(std430) buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) writeonly buffer HubChanges { HubChange hub_changes[]; };
+
+BodyVelocity load_velocity(uint body) { return velocities[body]; }
+void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = velocity; }
+Substep substep_of(uint substeps, bool against_static) { return make_substep(substeps, against_static, parameters); }
+
+const bool k_bounces = !k_hubs;
+
+void put_change(uint index, HubChange change)
+{
+    hub_changes[index - colour_offsets[k_first_hub_colour]] = change;
+}
+
+#include "resolution/contact_passes.glsl"
+
+void main()
+{
+    uint index = colour_offsets[args.x] + item_index();
+    uint end = colour_offsets[args.x + 1u];
+    if (args.x == k_overflow_colour) {
+        if (item_index() != 0u) return;
+    } else {
+        end = min(end, index + 1u);
+    }
+    for (; index < end; ++index) {
+        if (args.z >= constraints[index].substeps) continue;
+        take_constraint(index);
+        PassTarget target;
+        if (args.y != k_warm_start) target = target_of_pass(args.y);
+        pass_over_constraint(args.y, index, target);
+        if (args.y != k_warm_start) put_back_impulses(index);
+    }
+}
