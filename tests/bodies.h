@@ -72,8 +72,8 @@ inline std::vector<BodyDefinition> bodies_of(std::string_view scene_name) {
     return definitions;
 }
 
-/// A plate that lies on the ground and carries side × side boxes: it has more contacts than there are colours from
-/// side = 8 on.
+/// A plate that lies on the ground and carries side × side boxes: it is a hub from side = 6 on, and has more contacts
+/// than there are colours from side = 8 on.
 inline std::vector<BodyDefinition> plate_of(std::uint32_t side) {
     const float width = 1.25f * static_cast<float>(side);
     std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.25f, 0.0f}, {width, 0.5f, width})};
@@ -81,6 +81,21 @@ inline std::vector<BodyDefinition> plate_of(std::uint32_t side) {
         const float x = 1.25f * (static_cast<float>(i % side) + 0.5f) - 0.5f * width;
         const float z = 1.25f * (static_cast<float>(i / side) + 0.5f) - 0.5f * width;
         bodies.push_back(box_at({x, 1.0f, z}));
+    }
+    return bodies;
+}
+
+/// Small boxes, on them a plate, on that a second one, and small boxes again: side × side in each layer. The plates
+/// touch each other and are hubs both from side = 6 on.
+inline std::vector<BodyDefinition> two_plates(std::uint32_t side) {
+    const float width = 1.25f * static_cast<float>(side);
+    std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.75f, 0.0f}, {width, 0.5f, width}),
+                                       box_at({0.0f, 1.25f, 0.0f}, {width, 0.5f, width})};
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const float x = 1.25f * (static_cast<float>(i % side) + 0.5f) - 0.5f * width;
+        const float z = 1.25f * (static_cast<float>(i / side) + 0.5f) - 0.5f * width;
+        for (const float y : {0.25f, 1.75f})
+            bodies.push_back(box_at({x, y, z}, {0.5f, 0.5f, 0.5f}));
     }
     return bodies;
 }

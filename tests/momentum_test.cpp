@@ -97,6 +97,37 @@ float impulse_under(const World& world, BodyId id) {
     return sum;
 }
 
+TEST_P(Momentum, is_kept_by_a_hub) {
+    Settings settings;
+    settings.gravity = {};
+    World world = make_world(settings);
+    std::vector<BodyDefinition> bodies = plate_of(7);
+    bodies.erase(bodies.begin()); // the ground
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+        bodies[i].pose.position.y += 0.1f;
+        bodies[i].velocity.linear = {0.01f * static_cast<float>(i), -2.0f, 0.0f};
+    }
+    world.add(bodies);
+    glm::dvec3 linear_before(0.0), angular_before(0.0), linear(0.0), angular(0.0);
+    for (const BodyId id : world.bodies()) {
+        linear_before += linear_momentum(world, id);
+        angular_before += angular_momentum(world, id);
+    }
+    std::uint32_t hubs = 0;
+    for (int i = 0; i < 60; ++i) {
+        world.step();
+        hubs += world.report().hubs;
+    }
+    EXPECT_GT(hubs, 0u) << "they must have met";
+    for (const BodyId id : world.bodies()) {
+        linear += linear_momentum(world, id);
+        angular += angular_momentum(world, id);
+    }
+    const double scale = glm::length(linear_before);
+    EXPECT_LT(glm::length(linear - linear_before), 1e-5 * scale);
+    EXPECT_LT(glm::length(angular - angular_before), 1e-5 * scale * 4.0) << "the plate reaches 4 m from its middle";
+}
+
 TEST_P(Momentum, contacts_carry_the_stack_above_over_the_whole_step) {
     World world = make_world();
     world.add(ground());

@@ -25,9 +25,12 @@ shared uint left_over; // manifolds that wait for a later round
 struct Edge {
     uint rank;
     uint body[2];
-    bool obstructs[2]; // the body may be in a colour once only
-    bool of_hub[2];
+    bool obstructs[2]; // the body may be in the edge's colour once only
+    uint hub_count;
+    bool is_shared; // it takes one of the colours for hubs
 };
+
+bool is_found_hub(uint body) { return body_colours[body_word(body, k_hub_word)] != 0u; }
 
 Edge load_edge(uint pair)
 {
@@ -35,12 +38,23 @@ Edge load_edge(uint pair)
     edge.body[0] = manifolds[pair].body_a;
     edge.body[1] = manifolds[pair].body_b;
     bool movable[2];
+    bool of_hub[2];
     for (uint end = 0u; end < 2u; ++end) {
         movable[end] = is_movable(shapes[edge.body[end]]);
-        edge.of_hub[end] = body_colours[body_word(edge.body[end], k_hub_word)] != 0u;
-        edge.obstructs[end] = movable[end] && !edge.of_hub[end];
+        of_hub[end] = is_found_hub(edge.body[end]);
     }
-    edge.rank = edge_rank(edge.body[0], edge.body[1], movable[0] && movable[1]);
+    bool both_movable = movable[0] && movable[1];
+    edge.hub_count = (of_hub[0] ? 1u : 0u) + (of_hub[1] ? 1u : 0u);
+    edge.is_shared = edge.hub_count == 1u;
+    if (edge.is_shared && !both_movable) {
+        uint hub = edge.body[of_hub[0] ? 0u : 1u];
+        uint low = body_colours[body_word(hub, k_used_low)];
+        uint high = body_colours[body_word(hub, k_used_high)];
+        edge.is_shared = colour_below_hub(low, high, parameters) == k_overflow_colour;
+    }
+    for (uint end = 0u; end < 2u; ++end)
+        edge.obstructs[end] = movable[end] && !(of_hub[end] && edge.is_shared);
+    edge.rank = edge_rank(edge.body[0], edge.body[1], both_movable);
     return edge;
 }
 
@@ -54,8 +68,9 @@ uint free_colour(Edge edge)
             high |= body_colours[body_word(edge.body[end], k_used_high)];
         }
     }
-    if (edge.of_hub[0] && edge.of_hub[1]) return k_overflow_colour;
-    if (edge.of_hub[0] || edge.of_hub[1]) return first_free_hub_colour(high);
+    if (edge.hub_count == 2u) return k_overflow_colour;
+    if (edge.is_shared) return first_free_hub_colour(high);
+    if (edge.hub_count == 1u) return colour_below_hub(low, high, parameters);
     return first_free_colour(low, high, parameters.usable_colours);
 }
 
@@ -105,7 +120,8 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
     uint word = colour < 32u ? k_used_low : k_used_high;
     for (uint end = 0u; end < 2u; ++end) {
         if (edge.obstructs[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (colour & 31u);
-        if (edge.of_hub[end]) atomicAdd(body_colours[body_word(edge.body[end], k_hub_word)], 1u);
+        if (edge.is_shared && is_found_hub(edge.body[end]))
+            atomicAdd(body_colours[body_word(edge.body[end], k_hub_word)], 1u);
     }
     manifold_keys[pair] = colour;
     if (colour < k_first_hub_colour)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of assign_colours.comp.glsl: greedy colouring in the order of ranks.
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "device/cpu/cpu_state.h"
@@ -34,27 +35,37 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
 
     for (const Edge& edge : edges) {
         const Manifold& manifold = state.manifolds[edge.pair];
-        uint low = 0, high = 0, hubs = 0;
-        for (const uint body : {manifold.body_a, manifold.body_b}) {
-            if (word_of(body, k_hub_word) != 0) {
-                ++hubs;
-            } else if (is_movable(state.shapes[body])) {
-                low |= word_of(body, k_used_low);
-                high |= word_of(body, k_used_high);
-            }
+        const std::array bodies{manifold.body_a, manifold.body_b};
+        const auto movable = [&](uint body) { return is_movable(state.shapes[body]); };
+        const auto of_hub = [&](uint body) { return word_of(body, k_hub_word) != 0; };
+        const auto hub_count = std::ranges::count_if(bodies, of_hub);
+        bool is_shared = hub_count == 1;
+        if (is_shared && !std::ranges::all_of(bodies, movable)) {
+            const uint hub = of_hub(bodies[0]) ? bodies[0] : bodies[1];
+            is_shared = colour_below_hub(word_of(hub, k_used_low), word_of(hub, k_used_high), state.parameters) ==
+                        k_overflow_colour;
         }
-        uint colour = k_overflow_colour;
-        if (hubs == 0) colour = first_free_colour(low, high, state.parameters.usable_colours);
-        if (hubs == 1) colour = first_free_hub_colour(high);
+        const auto obstructs = [&](uint body) { return movable(body) && !(of_hub(body) && is_shared); };
+
+        uint low = 0, high = 0;
+        for (const uint body : bodies) {
+            if (!obstructs(body)) continue;
+            low |= word_of(body, k_used_low);
+            high |= word_of(body, k_used_high);
+        }
+        uint colour = first_free_colour(low, high, state.parameters.usable_colours);
+        if (hub_count == 1)
+            colour = is_shared ? first_free_hub_colour(high) : colour_below_hub(low, high, state.parameters);
+        if (hub_count == 2) colour = k_overflow_colour;
         state.manifold_keys[edge.pair] = colour;
         if (colour == k_overflow_colour) {
             ++state.counters[k_counter_overflow_count];
             continue;
         }
-        for (const uint body : {manifold.body_a, manifold.body_b}) {
-            if (word_of(body, k_hub_word) != 0)
+        for (const uint body : bodies) {
+            if (is_shared && of_hub(body))
                 ++word_of(body, k_hub_word);
-            else if (is_movable(state.shapes[body]))
+            else if (obstructs(body))
                 word_of(body, colour < 32 ? k_used_low : k_used_high) |= 1u << (colour & 31u);
         }
         if (colour < k_first_hub_colour)

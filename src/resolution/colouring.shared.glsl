@@ -57,8 +57,18 @@ inline uint body_word(uint body, uint word) { return k_body_words * body + word;
 // A body with more contacts than there are colours would have most of them solved one after the other. Such a hub does
 // not stand in the way of a colour: its edges take one of the last colours, in which only their other bodies must
 // differ. See contact_constraint.shared.glsl for what that means to the solver.
+//
+// A contact with what cannot be pushed may carry the hub and all that lies on it, and a few are not worth sharing: as
+// many as there are colours here are solved as others are.
 
 const uint k_is_hub = 0x80000000u;
+const uint k_colours_below_hubs = 4u;
+
+// Of a hub, for an edge to what cannot be pushed.
+inline uint colour_below_hub(uint used_low, uint used_high, Parameters p)
+{
+    return first_free_colour(used_low, used_high, min(p.usable_colours, k_colours_below_hubs));
+}
 
 inline bool is_hub(uint used_low, uint used_high, uint new_edges, Parameters p)
 {
