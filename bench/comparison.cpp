@@ -51,7 +51,9 @@ std::string remarks(const Json& earlier, const Json& now) {
     std::string text;
     for (const char* key : k_conditions) {
         const Json before = value_at(earlier, key), after = value_at(now, key);
-        if (before != after) text += fmt::format(" {} was {}, is {};", key + 1, before.dump(), after.dump());
+        const bool is_known = !before.is_null() && !after.is_null(); // an older file lacks what came later
+        if (is_known && before != after)
+            text += fmt::format(" {} was {}, is {};", key + 1, before.dump(), after.dump());
     }
     if (!text.empty()) text.pop_back();
     return text;

@@ -35,11 +35,12 @@ std::string device_text(const DeviceInfo& device) {
 std::string step_text(const RunReport& report) {
     const Settings& settings = report.settings;
     const bool soft = settings.stabilisation == Stabilisation::Soft;
-    return fmt::format("{} of {:.5g} ms: {}, {}{}, broad phase {}, {}", report.timing.steps, settings.dt * 1e3,
+    return fmt::format("{} of {:.5g} ms: {}, {}{}{}, broad phase {}, {}", report.timing.steps, settings.dt * 1e3,
                        word_of(stabilisation_words(), settings.stabilisation),
                        soft ? counted(report.last_step.substeps, "sub-step") + " of " : "",
-                       counted(settings.iterations, "iteration"), word_of(broad_phase_words(), settings.broad_phase),
-                       counted(report.last_step.growths, "growth"));
+                       counted(settings.iterations, "iteration"),
+                       settings.solve_order == SolveOrder::Coloured ? "" : " in sequential order",
+                       word_of(broad_phase_words(), settings.broad_phase), counted(report.last_step.growths, "growth"));
 }
 
 std::string speed_text(const RunReport& report) {
@@ -53,6 +54,7 @@ std::string contact_text(const StepReport& step) {
                                    counted(step.contacts, "contact point"), counted(step.colours, "colour"));
     if (step.overflow_manifolds > 0)
         text += fmt::format(" and {} without one", counted(step.overflow_manifolds, "manifold"));
+    if (step.hubs > 0) text += ", " + counted(step.hubs, "hub");
     return text;
 }
 

@@ -154,6 +154,7 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.one_island = population.some_kinematic;
     now.in_groups = now.small && plan.hub_capacity == 0 && placement.resolution->loops_freely();
     now.bounces = population.some_bounce;
+    now.overflow = plan.overflow || settings.solve_order == SolveOrder::Sequential;
     now.least_substeps = passes.least_substeps;
     now.most_substeps = now.small ? passes.most_substeps
                                   : std::clamp(k_most_substeps_of_all, passes.least_substeps, passes.most_substeps);

@@ -392,17 +392,17 @@ TEST(BoxBox, crossed_edges_touch_at_one_point) {
 
 TEST(BoxBox, a_resting_box_keeps_its_axis_while_it_wobbles) {
     Samples samples;
-    Carriers old = no_carriers();
+    Carriers carriers = no_carriers();
     int flips = 0, flips_without_memory = 0;
     uint last_free_axis = k_axis_none;
     for (int i = 0; i < 1'000; ++i) {
         Sample sample = aligned_boxes(vec3(0.5f), vec3(0.5f), vec3(0.0f, 0.999f + samples.number(-3e-4f, 3e-4f), 0.0f));
         sample.pose_b.rotation = turned(samples.direction(), samples.number(0.0f, 5e-4f));
         const ContactGeometry g =
-            collide_shapes(sample.pose_a, sample.shape_a, sample.pose_b, sample.shape_b, old, k_margin);
+            collide_shapes(sample.pose_a, sample.shape_a, sample.pose_b, sample.shape_b, carriers, k_margin);
         ASSERT_EQ(g.count, 4u);
-        flips += old.axis != k_axis_none && g.axis != old.axis ? 1 : 0;
-        old.axis = g.axis;
+        flips += carriers.axis != k_axis_none && g.axis != carriers.axis ? 1 : 0;
+        carriers.axis = g.axis;
         const uint free_axis = sample.collide().axis;
         flips_without_memory += last_free_axis != k_axis_none && free_axis != last_free_axis ? 1 : 0;
         last_free_axis = free_axis;

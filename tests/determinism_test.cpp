@@ -119,6 +119,27 @@ TEST_P(Paths, both_kernels_for_islands_give_the_bits_of_many_launches) {
     }
 }
 
+TEST_P(Paths, an_island_may_have_more_manifolds_than_a_group_has_invocations) {
+    for (const SolveOrder order : {SolveOrder::Coloured, SolveOrder::Sequential}) {
+        SCOPED_TRACE(static_cast<int>(order));
+        Settings settings;
+        settings.substeps = settings.max_substeps = 2;
+        settings.solve_order = order;
+        std::vector<BodyDefinition> bodies = bodies_of("pyramid:base=20");
+        for (BodyDefinition& body : bodies)
+            if (body.kind == BodyKind::Rigid) body.velocity.linear = {0.3f, -1.0f, 0.1f};
+        EngineRun groups(options_on(GetParam()), bodies, settings), launches(options_on(GetParam()), bodies, settings);
+        groups.simulation.reserve_pairs(4096);
+        launches.simulation.reserve_pairs(4096);
+        for (int i = 0; i < 6; ++i) {
+            groups.step_in_groups(i % 2 == 1);
+            launches.step_in_many_launches();
+            ASSERT_TRUE(groups.motion() == launches.motion()) << "step " << i;
+        }
+        EXPECT_GT(groups.counter(engine::k_counter_manifold_count), 384u);
+    }
+}
+
 TEST_P(Paths, a_kinematic_body_may_belong_to_several_islands) {
     std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.25f, 0.0f}, {9.0f, 0.5f, 2.0f}, BodyKind::Kinematic)};
     bodies.back().velocity = {{0.5f, 0.0f, 0.0f}, {0.0f, 0.3f, 0.0f}};

@@ -186,7 +186,7 @@ TEST(Math, a_free_turn_keeps_energy_and_angular_momentum) {
 
 // ---- contacts ----
 
-TEST(Math, tangents_make_a_right_handed_frame_with_the_normal) {
+TEST(Math, contact_frames_are_right_handed) {
     Samples samples;
     std::vector<vec3> normals{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (const float z : {1e-7f, -1e-7f, 1.0f - 1e-6f, -1.0f + 1e-6f})

@@ -19,7 +19,7 @@ struct StepReport {
     std::uint32_t contacts = 0;           ///< contact points
     std::uint32_t colours = 0;            ///< batches of the constraint graph
     std::uint32_t substeps = 0;           ///< most that an island had
-    std::uint32_t overflow_manifolds = 0; ///< found no colour, solved one at a time
+    std::uint32_t overflow_manifolds = 0; ///< without a colour, solved one at a time
     std::uint32_t hubs = 0;          ///< bodies with so many contacts that each is solved with a share of their mass
     std::uint32_t frozen_bodies = 0; ///< bodies whose velocity became non-finite, in all steps so far
     std::uint32_t growths = 0;       ///< steps done again with larger buffers or more launches, so far

@@ -56,7 +56,7 @@ inline uint body_word(uint body, uint word) { return k_body_words * body + word;
 //
 // A body with more contacts than there are colours would have most of them solved one after the other. Such a hub does
 // not stand in the way of a colour: its edges take one of the last colours, in which only their other bodies must
-// differ. See contact_constraint.shared.glsl for what that means to the solver.
+// differ. See hub.shared.glsl for what that means to the solver.
 //
 // A contact with what cannot be pushed may carry the hub and all that lies on it, and a few are not worth sharing: as
 // many as there are colours here are solved as others are.

@@ -26,7 +26,7 @@ inline ManifoldImpulses make_impulses(ContactConstraint c)
 // ---- separations ----
 
 // Of the four points now: what they were, and how far the anchors have moved since along the normal (equation 3.16). To
-// turn the frame back into each body, as that was before it turned, is cheaper than to turn every anchor.
+// turn the normal back into each body, as that was before it turned, is cheaper than to turn every anchor.
 // `traits`: the constraint's.
 inline vec4 current_separations(ManifoldRows rows, vec4 base, uint traits, BodyDelta a, BodyDelta b)
 {
@@ -63,16 +63,30 @@ struct Slip {
     float share_b; // that B's arm is too long by
 };
 
+inline float largest_diagonal(BodyInertia m) { return max(m.xx, max(m.yy, m.zz)); }
+
+// K knows no slip. Where it would grow to more than twice what it is taken for, each pass would overshoot the one before,
+// and impulses between light bodies that fly past each other would never end: there the slip is cut short, by this.
+inline float slip_share(vec3 apart, float share_a, float share_b, Meeting m)
+{
+    precise float yielding = share_a * share_a * largest_diagonal(m.inertia_a) +
+                             share_b * share_b * largest_diagonal(m.inertia_b);
+    precise float growth = yielding * dot3(apart, apart);
+    if (growth <= m.inverse_masses) return 1.0f;
+    precise float square = m.inverse_masses * reciprocal(growth);
+    return square_root(square);
+}
+
 // `gap` and `traits`: the constraint's.
-inline Slip measure_slip(vec3 gap, uint traits, BodyDelta a, BodyDelta b)
+inline Slip measure_slip(Meeting m, vec3 gap, uint traits, BodyDelta a, BodyDelta b)
 {
     precise vec3 apart = gap + (b.position - a.position);
     bool pushes_a = (traits & k_trait_movable) != 0u;
     bool pushes_b = (traits & (k_trait_movable << k_traits_of_b)) != 0u;
     Slip slip;
-    slip.apart = apart;
     slip.share_a = pushes_a ? (pushes_b ? 0.5f : 0.0f) : 1.0f;
     slip.share_b = pushes_b ? (pushes_a ? 0.5f : 0.0f) : 1.0f;
+    slip.apart = scale3(apart, slip_share(apart, slip.share_a, slip.share_b, m));
     return slip;
 }
 
@@ -341,6 +355,11 @@ inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Friction
 }
 
 // ---- passes ----
+
+inline bool is_finite_pair(VelocityPair v)
+{
+    return is_finite3(v.a.linear) && is_finite3(v.a.angular) && is_finite3(v.b.linear) && is_finite3(v.b.angular);
+}
 
 // Friction comes before the normal rows, as keeping bodies apart matters more and the last row wins.
 inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)

@@ -62,7 +62,7 @@ PassTarget target_of_pass(uint pass)
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == k_solve ? 0.0 : 1.0;
     target.moved_since = pass == k_relax;
-    target.slip = measure_slip(gap_at_start, traits, delta_a, delta_b);
+    target.slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     target.half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
     target.normal = make_normal_target(current_separations(rows, base_separation, traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != k_relax, substep, parameters);
@@ -93,12 +93,13 @@ ManifoldState pass_over_hit(uint index, float old_share)
 {
     BodyDelta delta_a = deltas[body_a];
     BodyDelta delta_b = deltas[body_b];
-    Slip slip = measure_slip(gap_at_start, traits, delta_a, delta_b);
+    Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     Substep substep = substep_of(substeps, is_against_static(traits));
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
     vec4 closing = closing_speeds(separations, substep.inv_h);
     ManifoldState before = begin_pass();
     Hit hit = solve_hit(before.velocities, rows, slip, closing, substep.inv_h, parameters);
+    if (!is_finite_pair(hit.velocities)) return before;
     put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
     constraints[index].hit_impulse += hit.impulse;
@@ -115,20 +116,30 @@ void put_velocity(uint index, uint body, uint its_traits, BodyVelocity before, B
         store_velocity(body, after);
 }
 
+void put_velocities(uint index, VelocityPair before, VelocityPair after)
+{
+    put_velocity(index, body_a, traits, before.a, after.a);
+    put_velocity(index, body_b, traits >> k_traits_of_b, before.b, after.b);
+}
+
 // One pass over the constraint in hand, whose index it is.
 void pass_over_constraint(uint pass, uint index, PassTarget target)
 {
-    ManifoldState s = begin_pass();
-    VelocityPair before = s.velocities;
-    if (pass == k_warm_start)
-        s.velocities = warm_start_manifold(s.velocities, rows, impulses);
-    else
-        s = solve_manifold(s, rows, target);
-    if (k_bounces && s.is_hit) {
-        if (pass == k_relax) return; // the next step's
-        s = pass_over_hit(index, target.old_share);
+    ManifoldState before = begin_pass();
+    if (pass == k_warm_start) {
+        put_velocities(index, before.velocities, warm_start_manifold(before.velocities, rows, impulses));
+        return;
     }
-    impulses = s.impulses;
-    put_velocity(index, body_a, traits, before.a, s.velocities.a);
-    put_velocity(index, body_b, traits >> k_traits_of_b, before.b, s.velocities.b);
+    ManifoldState solved = solve_manifold(before, rows, target);
+    if (k_bounces && solved.is_hit) {
+        if (pass == k_relax) return; // the next step's
+        ManifoldState hit = pass_over_hit(index, target.old_share);
+        impulses = hit.impulses;
+        put_velocities(index, before.velocities, hit.velocities);
+    } else if (is_finite_pair(solved.velocities)) {
+        impulses = solved.impulses;
+        put_velocities(index, before.velocities, solved.velocities);
+    } else { // what has gone wrong here is kept from the bodies
+        put_velocities(index, before.velocities, before.velocities);
+    }
 }

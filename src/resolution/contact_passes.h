@@ -27,7 +27,7 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
     target.moved_since = pass == ContactPass::Relax;
-    target.slip = measure_slip(c.gap, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
+    target.slip = measure_slip(rows.meeting, c.gap, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
     target.half_h = moves ? 0.5f * substep_length(c.substeps, p) : 0.0f;
     target.normal = make_normal_target(current_separations(state, c, rows), rows, impulses.normal,
                                        pass != ContactPass::Relax, substep, p);
@@ -42,6 +42,7 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     const Substep substep = make_substep(c.substeps, is_against_static(c.traits), state.parameters);
     const vec4 closing = closing_speeds(current_separations(state, c, rows), substep.inv_h);
     const Hit hit = solve_hit(before.velocities, rows, target.slip, closing, substep.inv_h, state.parameters);
+    if (!is_finite_pair(hit.velocities)) return before;
     const auto take = [&](uint body, const BodyVelocity& was, const BodyVelocity& is) {
         BodyWarmStart& warm = state.warm_starts[body];
         if (was.inverse_mass > 0.0f) warm = take_hit(warm, was, is, hit.time);
@@ -76,6 +77,7 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep
         s = solve_manifold(s, rows, target);
         if (s.is_hit && pass == ContactPass::Relax) return; // the next step's
         if (s.is_hit) s = pass_over_hit(state, before, c, rows, target);
+        if (!is_finite_pair(s.velocities)) s = before; // what has gone wrong here is kept from the bodies
         c.friction_impulse = s.impulses.friction;
         c.moment = s.impulses.moment;
         c.normal_impulse = s.impulses.normal;

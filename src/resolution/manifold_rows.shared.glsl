@@ -161,13 +161,16 @@ inline BodyInertia share_inertia(BodyInertia m, uint its_traits)
     float shares = float(m.traits >> k_trait_shares);
     precise vec3 diagonal = vec3(m.xx, m.yy, m.zz) * shares;
     precise vec3 rest = vec3(m.xy, m.xz, m.yz) * shares;
-    m.xx = diagonal.x;
-    m.yy = diagonal.y;
-    m.zz = diagonal.z;
-    m.xy = rest.x;
-    m.xz = rest.y;
-    m.yz = rest.z;
-    return m;
+    BodyInertia share;
+    share.xx = diagonal.x;
+    share.yy = diagonal.y;
+    share.zz = diagonal.z;
+    share.xy = rest.x;
+    share.xz = rest.y;
+    share.yz = rest.z;
+    share.traits = m.traits;
+    share.substeps = m.substeps;
+    return share;
 }
 
 inline Meeting make_meeting(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)

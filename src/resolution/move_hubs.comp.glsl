@@ -9,9 +9,8 @@
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
-#include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
-#include "resolution/contact_constraint.shared.glsl"
+#include "resolution/hub.shared.glsl"
 
 layout(local_size_x = 256) in; // k_hub_group
 

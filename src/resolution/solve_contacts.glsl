@@ -14,7 +14,7 @@
 #include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/contact.shared.glsl"
-#include "resolution/contact_constraint.shared.glsl"
+#include "resolution/hub.shared.glsl"
 #include "resolution/hit.shared.glsl"
 
 layout(local_size_x = 64) in;

@@ -16,7 +16,7 @@
 #include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/contact.shared.glsl"
-#include "resolution/contact_constraint.shared.glsl"
+#include "resolution/hub.shared.glsl"
 #include "resolution/hit.shared.glsl"
 #include "resolution/island.shared.glsl"
 

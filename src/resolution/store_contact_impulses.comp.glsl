@@ -10,6 +10,7 @@
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
+#include "resolution/hub.shared.glsl"
 #include "resolution/contact_constraint.shared.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What the solver makes of hubs (which those are: colouring.shared.glsl). Needs resolution/manifold_rows.shared.glsl.
+//
+// The constraints in a hub's colour are solved side by side, though they share a body. Each is given a share of the hub,
+// with an n-th of its mass and inertia where n are solved so. What they do to their shares is then added up: the hub
+// moves as the mean of its shares, and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid
+// Body Simulation", 2012).
+
+// Of both bodies. In the other colours a hub is a body as others are.
+inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
+{
+    uint mask = k_trait_movable | k_trait_round;
+    if (colour >= k_first_hub_colour && colour < k_max_colours) mask |= k_trait_hub;
+    return (a.traits & mask) | ((b.traits & mask) << k_traits_of_b);
+}
+
+inline float share_inverse_mass(float inverse_mass, BodyInertia m, uint its_traits)
+{
+    precise float of_share = inverse_mass * float(m.traits >> k_trait_shares);
+    return (its_traits & k_trait_hub) != 0u ? of_share : inverse_mass;
+}
+
+// What a constraint does to the hub itself, of the velocities that its share had before and has after a pass. The linear
+// part is the hub's already, as BodyVelocity::inverse_mass is.
+inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity after, BodyInertia m)
+{
+    precise vec3 linear = after.linear - before.linear;
+    precise vec3 angular = (after.angular - before.angular) * reciprocal(float(m.traits >> k_trait_shares));
+    HubChange change;
+    change.linear = linear;
+    change.body = body;
+    change.angular = angular;
+    change.reserved = 0.0f;
+    return change;
+}
+
+inline HubChange no_change(uint body)
+{
+    HubChange none;
+    none.linear = vec3(0.0f, 0.0f, 0.0f);
+    none.body = body;
+    none.angular = vec3(0.0f, 0.0f, 0.0f);
+    none.reserved = 0.0f;
+    return none;
+}
+
+inline HubChange add_changes(HubChange a, HubChange b)
+{
+    precise vec3 linear = a.linear + b.linear;
+    precise vec3 angular = a.angular + b.angular;
+    a.linear = linear;
+    a.angular = angular;
+    return a;
+}
+
+inline BodyVelocity move_hub(BodyVelocity velocity, HubChange change)
+{
+    precise vec3 linear = velocity.linear + change.linear;
+    precise vec3 angular = velocity.angular + change.angular;
+    velocity.linear = linear;
+    velocity.angular = angular;
+    return velocity;
+}
