@@ -156,8 +156,8 @@ const float k_never = 1.0e30f; // m/s, or s
 // overlaps by more than half of that has been there for longer, and is pushed apart.
 inline float hit_speed(float separation, float normal_mass, float restitution, float inv_h, Parameters p)
 {
-    precise float old = -0.5f * separation * inv_h;
-    float speed = max(max(closing_speed(separation, inv_h), old), p.restitution_threshold);
+    float closing = max(closing_speed(separation, inv_h), closing_speed(-0.5f * separation, inv_h));
+    float speed = max(closing, p.restitution_threshold);
     return normal_mass > 0.0f && restitution > 0.0f ? speed : k_never;
 }
 
