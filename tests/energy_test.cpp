@@ -21,6 +21,14 @@ std::vector<BodyDefinition> pyramid_that_falls() {
     return bodies;
 }
 
+/// Hubs among what lands.
+std::vector<BodyDefinition> plates_that_fall() {
+    std::vector<BodyDefinition> bodies = two_plates(7);
+    for (std::size_t i = 1; i < bodies.size(); ++i)
+        bodies[i].pose.position.y *= 1.3f;
+    return bodies;
+}
+
 /// Two cards that lean against each other and a third that lies on top.
 std::vector<BodyDefinition> cards() {
     constexpr float k_lean = 0.3f;
@@ -122,6 +130,7 @@ const Case k_cases[] = {
     {"pyramid", true, 600, [] { return bodies_of("pyramid:base=10"); }},
     {"pyramid_that_falls", true, 300, pyramid_that_falls},
     {"pool", true, 600, [] { return bodies_of("pool:boxes=150"); }},
+    {"plates_that_fall", true, 300, plates_that_fall},
     {"cards", true, 600, cards},
     {"cards_that_slip", true, 300, cards_that_slip},
     {"thrown_boxes", false, 240, [] { return boxes_thrown_at_each_other(0.0f); }},
