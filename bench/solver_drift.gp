@@ -8,13 +8,13 @@ if (!exists("png")) png = "docs/images/solver-drift.png"
 if (!exists("over")) over = "passes"
 
 set datafile separator comma
-set terminal pngcairo size 1200,420 font "DejaVu Sans,10"
+set terminal pngcairo size 1200,460 font "DejaVu Sans,10"
 set output png
 set logscale xy
 set xrange [:over eq "time" ? 100 : 200]
 set format y "10^{%T}"
 set grid linecolor rgb "#d8d8d8"
-set key top right
+set key below maxrows 2 samplen 2
 set xlabel over eq "time" ? "ms a step" : "iterations or sub-steps a step"
 x = over eq "time" ? 12 : 4
 
