@@ -14,9 +14,6 @@ constexpr float k_speculative_distance = 0.02f;
 // Overlap that Baumgarte's bias leaves alone, so that contacts at rest do not come and go (m).
 constexpr float k_baumgarte_slop = 0.005f;
 
-// A body with more contacts than this is a hub. Fewer would cost a launch each.
-constexpr uint k_hub_contacts = 32;
-
 // Loads are counted in weights; without gravity, in those of the Earth (m/s²).
 constexpr float k_standard_gravity = 9.81f;
 
@@ -60,7 +57,7 @@ Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
     p.table_size = plan.table_size;
     const bool coloured = settings.solve_order == SolveOrder::Coloured;
     p.usable_colours = coloured ? k_first_hub_colour : 0;
-    p.hub_contacts = coloured && !plan.bounces ? k_hub_contacts : k_none;
+    p.hub_contacts = coloured && !plan.bounces ? settings.hub_contacts : k_none;
     p.hub_capacity = plan.hub_capacity;
     return p;
 }

@@ -85,6 +85,12 @@ inline std::vector<BodyDefinition> plate_of(std::uint32_t side) {
     return bodies;
 }
 
+/// Settings by which a plate with some boxes is a hub.
+inline Settings with_hubs(Settings settings = {}) {
+    settings.hub_contacts = 32;
+    return settings;
+}
+
 /// Small boxes, on them a plate, on that a second one, and small boxes again: side × side in each layer. The plates
 /// touch each other and are hubs both from side = 6 on.
 inline std::vector<BodyDefinition> two_plates(std::uint32_t side) {

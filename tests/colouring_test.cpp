@@ -127,7 +127,7 @@ void expect_rest(const EngineRun& run, const std::vector<BodyDefinition>& bodies
 
 TEST_P(Colouring, the_contacts_of_a_hub_have_one_colour) {
     const std::vector<BodyDefinition> bodies = plate_of(9);
-    EngineRun run(options_on(GetParam()), bodies);
+    EngineRun run(options_on(GetParam()), bodies, with_hubs());
     run.step();
     expect_valid(run);
     EXPECT_EQ(run.counter(engine::k_counter_colour_demand), 1u) << "of the plate on the ground";
@@ -140,7 +140,7 @@ TEST_P(Colouring, the_contacts_of_a_hub_have_one_colour) {
 
 TEST_P(Colouring, a_body_may_touch_two_hubs_and_hubs_may_touch) {
     const std::vector<BodyDefinition> bodies = two_plates(7);
-    EngineRun run(options_on(GetParam()), bodies);
+    EngineRun run(options_on(GetParam()), bodies, with_hubs());
     run.step();
     expect_valid(run);
     EXPECT_EQ(run.counter(engine::k_counter_hub_count), 2u);
@@ -154,7 +154,7 @@ TEST_P(Colouring, a_body_may_touch_two_hubs_and_hubs_may_touch) {
 TEST_P(Colouring, where_something_bounces_there_is_the_overflow_set_instead_of_hubs) {
     std::vector<BodyDefinition> bodies = plate_of(9);
     bodies.back() = with_material(bodies.back(), 0.5f, 0.5f);
-    EngineRun run(options_on(GetParam()), bodies);
+    EngineRun run(options_on(GetParam()), bodies, with_hubs());
     run.step();
     EXPECT_EQ(run.counter(engine::k_counter_hub_count), 0u);
     EXPECT_EQ(run.counter(engine::k_counter_colour_demand), engine::k_first_hub_colour);
@@ -169,7 +169,7 @@ TEST_P(Colouring, hubs_and_the_overflow_set_give_the_same_bits_as_on_one_thread)
     std::vector<BodyDefinition> bouncing = plate_of(9);
     bouncing.back() = with_material(bouncing.back(), 0.5f, 0.5f);
     for (const auto& bodies : {plate_of(9), two_plates(7), bouncing}) {
-        EngineRun run(options_on(GetParam()), bodies), expected(serial, bodies);
+        EngineRun run(options_on(GetParam()), bodies, with_hubs()), expected(serial, bodies, with_hubs());
         run.step(10);
         expected.step(10);
         EXPECT_TRUE(run.motion() == expected.motion());
@@ -177,7 +177,7 @@ TEST_P(Colouring, hubs_and_the_overflow_set_give_the_same_bits_as_on_one_thread)
 }
 
 TEST_P(Colouring, a_hub_that_loses_its_contacts_is_one_no_longer) {
-    World world = make_world();
+    World world = make_world(with_hubs());
     world.add(plate_of(9));
     world.step(3);
     EXPECT_EQ(world.report().hubs, 1u);

@@ -122,7 +122,7 @@ void expect_no_gain(World& world, const Case& scene, int look_every) {
 }
 
 World world_for(const Case& scene, DeviceKind device) {
-    return World(scene.weighty ? Settings{} : weightless(), options_on(device));
+    return World(with_hubs(scene.weighty ? Settings{} : weightless()), options_on(device));
 }
 
 const Case k_cases[] = {

@@ -86,7 +86,7 @@ TEST_P(Momentum, of_turning_is_kept_when_many_bodies_collide) {
 }
 
 TEST_P(Momentum, is_kept_by_a_hub) {
-    World world = make_world(weightless());
+    World world = make_world(with_hubs(weightless()));
     std::vector<BodyDefinition> bodies = plate_of(7);
     bodies.erase(bodies.begin()); // the ground
     for (std::size_t i = 1; i < bodies.size(); ++i) {
@@ -135,7 +135,7 @@ TEST_P(Momentum, contacts_carry_the_stack_above_over_the_whole_step) {
 }
 
 TEST_P(Momentum, contacts_carry_what_lies_on_a_hub) {
-    World world = make_world();
+    World world = make_world(with_hubs());
     const std::vector<BodyId> ids = world.add(two_plates(7));
     world.step(240);
     EXPECT_EQ(world.report().hubs, 2u);

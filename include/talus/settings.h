@@ -59,6 +59,7 @@ struct Settings {
     float max_angular_speed = 200.0f;   ///< rad/s
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
     SolveOrder solve_order = SolveOrder::Coloured;
+    std::uint32_t hub_contacts = 1000; ///< a body with more is solved by shares: fast, but few may not carry it
 };
 
 /// How many of each thing the first buffers have room for; 0 leaves it to Talus. They grow as needed, so this only
