@@ -72,7 +72,7 @@ inline std::vector<BodyDefinition> bodies_of(std::string_view scene_name) {
     return definitions;
 }
 
-/// A plate that lies on the ground and carries side × side boxes: it is a hub from side = 6 on, and has more contacts
+/// A plate that lies on the ground and carries side × side boxes: with_hubs it is a hub from side = 6 on, and it has more
 /// than there are colours from side = 8 on.
 inline std::vector<BodyDefinition> plate_of(std::uint32_t side) {
     const float width = 1.25f * static_cast<float>(side);
@@ -92,7 +92,7 @@ inline Settings with_hubs(Settings settings = {}) {
 }
 
 /// Small boxes, on them a plate, on that a second one, and small boxes again: side × side in each layer. The plates
-/// touch each other and are hubs both from side = 6 on.
+/// touch each other and with_hubs are hubs both from side = 6 on.
 inline std::vector<BodyDefinition> two_plates(std::uint32_t side) {
     const float width = 1.25f * static_cast<float>(side);
     std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.75f, 0.0f}, {width, 0.5f, width}),

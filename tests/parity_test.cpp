@@ -67,6 +67,7 @@ TEST(ParityOfMixedBodies, holds_for_spheres_spin_bounces_and_the_other_settings)
 TEST(ParityOfMixedBodies, holds_where_colours_run_out) {
     TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
     expect_parity(engine::compare_devices(plate_of(9), {}, 5));
+    expect_parity(engine::compare_devices(plate_of(9), with_hubs(), 5));
     Settings sequential;
     sequential.solve_order = SolveOrder::Sequential;
     expect_parity(engine::compare_devices(bodies_of("pyramid:base=5"), sequential, 5));
