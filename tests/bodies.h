@@ -73,7 +73,7 @@ inline std::vector<BodyDefinition> bodies_of(std::string_view scene_name) {
 }
 
 /// A plate that lies on the ground and carries side × side boxes: with_hubs it is a hub from side = 6 on, and it has
-/// more than there are colours from side = 8 on.
+/// more contacts than there are colours from side = 8 on.
 inline std::vector<BodyDefinition> plate_of(std::uint32_t side) {
     const float width = 1.25f * static_cast<float>(side);
     std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.25f, 0.0f}, {width, 0.5f, width})};
