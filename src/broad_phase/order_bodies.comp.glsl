@@ -12,9 +12,9 @@
 
 layout(local_size_x = 512) in;
 
-layout(std430) readonly buffer Poses { BodyPose poses[]; };
-layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
-layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) coherent buffer Aabbs { Aabb aabbs[]; };
 layout(std430) writeonly buffer SpreadSums { SpreadSum spread_sums[]; };
 layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
@@ -59,7 +59,7 @@ void main()
     uint me = gl_LocalInvocationID.x;
     uint body_count = parameters.body_count;
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
-        aabbs[body] = compute_aabb(poses[body], velocities[body], shapes[body], parameters);
+        aabbs[body] = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
     groupMemoryBarrier();
     barrier();
     measure_spread();

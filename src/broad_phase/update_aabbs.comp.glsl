@@ -9,14 +9,14 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Poses { BodyPose poses[]; };
-layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
-layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) writeonly buffer Aabbs { Aabb aabbs[]; };
 
 void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    aabbs[body] = compute_aabb(poses[body], velocities[body], shapes[body], parameters);
+    aabbs[body] = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
 }

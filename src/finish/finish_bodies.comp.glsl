@@ -11,11 +11,11 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
-layout(std430) readonly buffer Deltas { BodyDelta deltas[]; };
-layout(std430) buffer Poses { BodyPose poses[]; };
-layout(std430) writeonly buffer Loads { BodyLoad loads[]; };
-layout(std430) buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
+layout(std430) readonly buffer Deltas { BodyDeltaCells deltas[]; };
+layout(std430) buffer Poses { BodyPoseCells poses[]; };
+layout(std430) writeonly buffer Loads { BodyLoadCells loads[]; };
+layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
 void main()
@@ -23,16 +23,17 @@ void main()
     uint body = item_index();
     if (body >= parameters.body_count) return;
     if (body == 0u) counters[k_counter_old_pair_count] = counters[k_counter_pair_count];
-    if (!is_mover(shapes[body])) return;
-    loads[body] = no_load();
-    BodyPose pose = poses[body];
+    if (!is_mover(unpack(shapes[body]))) return;
+    loads[body] = pack(no_load());
+    BodyPose pose = unpack(poses[body]);
     if ((pose.flags & k_body_frozen) != 0u) return;
-    BodyPose moved = apply_delta(pose, deltas[body]);
-    if (is_finite_motion(moved, velocities[body])) {
-        poses[body] = moved;
+    BodyPose moved = apply_delta(pose, unpack(deltas[body]));
+    if (is_finite_motion(moved, unpack(velocities[body]))) {
+        poses[body] = pack(moved);
     } else {
-        poses[body].flags = pose.flags | k_body_frozen;
-        velocities[body] = frozen_velocity();
+        pose.flags |= k_body_frozen;
+        poses[body] = pack(pose);
+        velocities[body] = pack(frozen_velocity());
         atomicAdd(counters[k_counter_frozen_bodies], 1u);
     }
 }

@@ -20,15 +20,15 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Pairs { Pair pairs[]; };
-layout(std430) readonly buffer Poses { BodyPose poses[]; };
-layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
-layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
-layout(std430) readonly buffer Properties { BodyProperties properties[]; };
+layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
+layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer PairTable { uint pair_table[]; };
-layout(std430) readonly buffer OldManifolds { Manifold old_manifolds[]; };
-layout(std430) readonly buffer OldManifoldPoints { ManifoldPoint old_manifold_points[]; };
-layout(std430) writeonly buffer Manifolds { Manifold manifolds[]; };
-layout(std430) writeonly buffer ManifoldPoints { ManifoldPoint manifold_points[]; };
+layout(std430) readonly buffer OldManifolds { ManifoldCells old_manifolds[]; };
+layout(std430) readonly buffer OldManifoldPoints { ManifoldPointCells old_manifold_points[]; };
+layout(std430) writeonly buffer Manifolds { ManifoldCells manifolds[]; };
+layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 
 // The last step's manifold of a pair, or k_none.
 uint find_old_manifold(Pair pair)
@@ -37,7 +37,7 @@ uint find_old_manifold(Pair pair)
     while (true) {
         uint old = pair_table[slot];
         if (old == k_none) return k_none;
-        if (old_manifolds[old].body_a == pair.body_a && old_manifolds[old].body_b == pair.body_b) return old;
+        if (unpack(old_manifolds[old]).body_a == pair.body_a && unpack(old_manifolds[old]).body_b == pair.body_b) return old;
         slot = (slot + 1u) & (parameters.table_size - 1u);
     }
     return k_none;
@@ -46,12 +46,12 @@ uint find_old_manifold(Pair pair)
 Carriers read_carriers(uint old_index)
 {
     Carriers carriers = no_carriers();
-    carriers.axis = old_manifolds[old_index].axis;
-    uint count = old_manifolds[old_index].point_count;
+    carriers.axis = unpack(old_manifolds[old_index]).axis;
+    uint count = unpack(old_manifolds[old_index]).point_count;
     for (uint i = 0u; i < count; ++i) {
         uint point = 4u * old_index + i;
-        if (old_manifold_points[point].normal_impulse > 0.0)
-            carriers.features[i] = old_manifold_points[point].feature_id;
+        if (unpack(old_manifold_points[point]).normal_impulse > 0.0)
+            carriers.features[i] = unpack(old_manifold_points[point]).feature_id;
     }
     return carriers;
 }
@@ -59,11 +59,11 @@ Carriers read_carriers(uint old_index)
 OldPoints read_old_points(uint old_index)
 {
     OldPoints old;
-    old.axis = old_manifolds[old_index].axis;
-    old.count = old_manifolds[old_index].point_count;
+    old.axis = unpack(old_manifolds[old_index]).axis;
+    old.count = unpack(old_manifolds[old_index]).point_count;
     for (uint i = 0u; i < old.count; ++i) {
-        old.anchors[i] = old_manifold_points[4u * old_index + i].anchor_a;
-        old.features[i] = old_manifold_points[4u * old_index + i].feature_id;
+        old.anchors[i] = unpack(old_manifold_points[4u * old_index + i]).anchor_a;
+        old.features[i] = unpack(old_manifold_points[4u * old_index + i]).feature_id;
     }
     return old;
 }
@@ -77,28 +77,28 @@ void main()
     Carriers carriers = no_carriers();
     if (old_index != k_none) carriers = read_carriers(old_index);
 
-    BodyPose pose_a = poses[pair.body_a];
-    BodyPose pose_b = poses[pair.body_b];
+    BodyPose pose_a = unpack(poses[pair.body_a]);
+    BodyPose pose_b = unpack(poses[pair.body_b]);
     precise vec3 offset = pose_b.position - pose_a.position;
-    precise vec3 motion = (velocities[pair.body_b].linear - velocities[pair.body_a].linear) * parameters.dt;
+    precise vec3 motion = (unpack(velocities[pair.body_b]).linear - unpack(velocities[pair.body_a]).linear) * parameters.dt;
     precise float max_separation = parameters.speculative_distance + length3(motion);
-    ContactGeometry g = collide_moving_shapes(pose_a, shapes[pair.body_a], pose_b, shapes[pair.body_b], motion,
+    ContactGeometry g = collide_moving_shapes(pose_a, unpack(shapes[pair.body_a]), pose_b, unpack(shapes[pair.body_b]), motion,
                                               carriers, max_separation);
 
     // The rest of the last manifold is read here, as registers are short in the collision.
-    Manifold manifold = make_manifold(pair, g, properties[pair.body_a], properties[pair.body_b]);
+    Manifold manifold = make_manifold(pair, g, unpack(properties[pair.body_a]), unpack(properties[pair.body_b]));
     PointMatch match = no_match();
     if (old_index != k_none) {
-        manifold = carry_over(manifold, old_manifolds[old_index], parameters);
+        manifold = carry_over(manifold, unpack(old_manifolds[old_index]), parameters);
         match = match_points(g, read_old_points(old_index));
-    } else if (is_placed(pose_a, shapes[pair.body_a]) && is_placed(pose_b, shapes[pair.body_b])) {
+    } else if (is_placed(pose_a, unpack(shapes[pair.body_a])) && is_placed(pose_b, unpack(shapes[pair.body_b]))) {
         manifold = begin_trial(manifold, parameters);
     }
-    manifolds[pair_index] = manifold;
+    manifolds[pair_index] = pack(manifold);
     for (uint i = 0u; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, pose_a.position, offset, i);
         uint old_point = match.old_index[i];
-        if (old_point != k_none) point.normal_impulse = old_manifold_points[4u * old_index + old_point].normal_impulse;
-        manifold_points[4u * pair_index + i] = point;
+        if (old_point != k_none) point.normal_impulse = unpack(old_manifold_points[4u * old_index + old_point]).normal_impulse;
+        manifold_points[4u * pair_index + i] = pack(point);
     }
 }

@@ -3,41 +3,42 @@
 // contact_passes.glsl, and declares Inertias, Deltas, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
-layout(std430) buffer Poses { BodyPose poses[]; };
-layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
-layout(std430) readonly buffer Properties { BodyProperties properties[]; };
-layout(std430) readonly buffer Loads { BodyLoad loads[]; };
+layout(std430) buffer Poses { BodyPoseCells poses[]; };
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
+layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
+layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 
 // Ends the sub-step before `substep` with its movement, and begins `substep` with its forces: between the two nothing
 // happens. A body whose sub-steps are all done is left alone.
 void integrate_body(uint body, uint substep)
 {
-    BodyInertia inertia = inertias[body];
-    if (substep > inertia.substeps || !is_mover(shapes[body])) return;
-    BodyPose pose = poses[body];
+    BodyInertia inertia = unpack(inertias[body]);
+    if (substep > inertia.substeps || !is_mover(unpack(shapes[body]))) return;
+    BodyPose pose = unpack(poses[body]);
     if ((pose.flags & k_body_frozen) != 0u) return;
     float h = substep_length(inertia.substeps, parameters);
     BodyVelocity velocity = load_velocity(body);
-    BodyDelta delta = deltas[body]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
-    BodyWarmStart warm = warm_starts[body];
+    BodyDelta delta = load_delta(body);
+    BodyWarmStart warm = load_warm_start(body);
     if (substep > 0u) {
         delta = integrate_position(delta, warm, velocity, h);
-        deltas[body] = delta;
+        deltas[body] = pack(delta);
     }
     if (substep == inertia.substeps) return;
 
     vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
     warm = gather_impulses(warm, velocity);
-    velocity = integrate_velocity(velocity, warm, rotation, properties[body], inertia, loads[body],
-                                  is_movable(shapes[body]), h, parameters);
+    velocity = integrate_velocity(velocity, warm, rotation, unpack(properties[body]), inertia, unpack(loads[body]),
+                                  is_movable(unpack(shapes[body])), h, parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();
         warm = no_warm_start(velocity);
-        poses[body].flags = pose.flags | k_body_frozen;
+        pose.flags |= k_body_frozen;
+        poses[body] = pack(pose);
         atomicAdd(counters[k_counter_frozen_bodies], 1u);
     }
     warm.linear_before = velocity.linear;
     warm.angular_before = velocity.angular;
-    warm_starts[body] = warm;
+    warm_starts[body] = pack(warm);
     store_velocity(body, velocity);
 }

@@ -9,10 +9,23 @@
 // contact_passes.h.
 // Reads: Inertias, Deltas. Reads and writes: Constraints (their impulses), WarmStarts.
 
-layout(std430) buffer Constraints { ContactConstraint constraints[]; };
-layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
-layout(std430) coherent buffer Deltas { BodyDelta deltas[]; };
-layout(std430) coherent buffer WarmStarts { BodyWarmStart warm_starts[]; };
+layout(std430) buffer Constraints { ContactConstraintCells constraints[]; };
+layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) coherent buffer Deltas { BodyDeltaCells deltas[]; };
+layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
+
+// A coherent block's member is no argument: NVIDIA's compiler refuses it.
+BodyDelta load_delta(uint body)
+{
+    BodyDeltaCells delta = deltas[body];
+    return unpack(delta);
+}
+
+BodyWarmStart load_warm_start(uint body)
+{
+    BodyWarmStartCells warm = warm_starts[body];
+    return unpack(warm);
+}
 
 const uint k_warm_start = 0u;
 const uint k_solve = 1u;       // with bias
@@ -31,9 +44,9 @@ ManifoldImpulses impulses;
 
 void take_constraint(uint index)
 {
-    ContactConstraint c = constraints[index];
-    BodyInertia inertia_a = inertias[c.body_a];
-    BodyInertia inertia_b = inertias[c.body_b];
+    ContactConstraint c = unpack(constraints[index]);
+    BodyInertia inertia_a = unpack(inertias[c.body_a]);
+    BodyInertia inertia_b = unpack(inertias[c.body_b]);
     body_a = c.body_a;
     body_b = c.body_b;
     traits = c.traits;
@@ -44,18 +57,19 @@ void take_constraint(uint index)
     impulses = make_impulses(c);
 }
 
+// In the last cells of the record: see ContactConstraint.
 void put_back_impulses(uint index)
 {
-    constraints[index].friction_impulse = impulses.friction;
-    constraints[index].moment = impulses.moment;
-    constraints[index].normal_impulse = impulses.normal;
-    constraints[index].total_impulse = impulses.total;
+    constraints[index].cell_11.xyz = floatBitsToUint(impulses.friction);
+    constraints[index].cell_12.xyz = floatBitsToUint(impulses.moment);
+    constraints[index].cell_13 = floatBitsToUint(impulses.normal);
+    constraints[index].cell_14 = floatBitsToUint(impulses.total);
 }
 
 PassTarget target_of_pass(uint pass)
 {
-    BodyDelta delta_a = deltas[body_a]; // a coherent block's member is no argument: NVIDIA's compiler refuses it
-    BodyDelta delta_b = deltas[body_b];
+    BodyDelta delta_a = load_delta(body_a);
+    BodyDelta delta_b = load_delta(body_b);
     Substep substep = substep_of(substeps, is_against_static(traits));
     bool moves = pass != k_relax && is_against_static(traits);
     PassTarget target;
@@ -83,16 +97,16 @@ ManifoldState begin_pass()
 void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
 {
     if (before.inverse_mass == 0.0) return;
-    BodyWarmStart warm = warm_starts[body];
-    warm_starts[body] = take_hit(warm, before, after, time);
+    BodyWarmStart warm = load_warm_start(body);
+    warm_starts[body] = pack(take_hit(warm, before, after, time));
     groupMemoryBarrier(); // the body's own invocation reads it
 }
 
 // Instead of the pass that has found the hit, whose result was not put back.
 ManifoldState pass_over_hit(uint index, float old_share)
 {
-    BodyDelta delta_a = deltas[body_a];
-    BodyDelta delta_b = deltas[body_b];
+    BodyDelta delta_a = load_delta(body_a);
+    BodyDelta delta_b = load_delta(body_b);
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     Substep substep = substep_of(substeps, is_against_static(traits));
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
@@ -102,7 +116,7 @@ ManifoldState pass_over_hit(uint index, float old_share)
     if (!is_finite_pair(hit.velocities)) return before;
     put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
-    constraints[index].hit_impulse += hit.impulse;
+    constraints[index].cell_15 = floatBitsToUint(uintBitsToFloat(constraints[index].cell_15) + hit.impulse);
     return end_hit(before, hit, old_share);
 }
 
@@ -111,7 +125,7 @@ void put_velocity(uint index, uint body, uint its_traits, BodyVelocity before, B
 {
     if (after.inverse_mass == 0.0) return;
     if (k_hubs && (its_traits & k_trait_hub) != 0u)
-        put_change(index, change_of_hub(body, before, after, inertias[body]));
+        put_change(index, change_of_hub(body, before, after, unpack(inertias[body])));
     else
         store_velocity(body, after);
 }

@@ -12,14 +12,16 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) buffer Velocities { BodyVelocity velocities[]; };
-layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
-layout(std430) buffer Deltas { BodyDelta deltas[]; };
-layout(std430) buffer WarmStarts { BodyWarmStart warm_starts[]; };
+layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) buffer Deltas { BodyDeltaCells deltas[]; };
+layout(std430) buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
-BodyVelocity load_velocity(uint body) { return velocities[body]; }
-void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = velocity; }
+BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
+BodyDelta load_delta(uint body) { return unpack(deltas[body]); }
+BodyWarmStart load_warm_start(uint body) { return unpack(warm_starts[body]); }
+void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 
 #include "resolution/body_passes.glsl"
 

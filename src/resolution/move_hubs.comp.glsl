@@ -17,8 +17,8 @@ layout(local_size_x = 256) in; // k_hub_group
 layout(std430) readonly buffer Hubs { uint hubs[]; };
 layout(std430) readonly buffer HubChanges { HubChange hub_changes[]; };
 layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
-layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
-layout(std430) buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 
 shared HubChange sums[k_hub_group];
 
@@ -26,7 +26,7 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     uint hub = hubs[group_index()];
-    if (args.z >= inertias[hub].substeps || velocities[hub].inverse_mass == 0.0) return;
+    if (args.z >= unpack(inertias[hub]).substeps || unpack(velocities[hub]).inverse_mass == 0.0) return;
     uint first = colour_offsets[k_first_hub_colour];
     uint end = colour_offsets[args.x + 1u] - first;
     HubChange sum = no_change(hub);
@@ -39,5 +39,5 @@ void main()
         if (me < half_count) sums[me] = add_changes(sums[me], sums[me + half_count]);
         barrier();
     }
-    if (me == 0u) velocities[hub] = move_hub(velocities[hub], sums[0]);
+    if (me == 0u) velocities[hub] = pack(move_hub(unpack(velocities[hub]), sums[0]));
 }

@@ -12,28 +12,28 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Poses { BodyPose poses[]; };
-layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
-layout(std430) readonly buffer Properties { BodyProperties properties[]; };
-layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
-layout(std430) writeonly buffer Inertias { BodyInertia inertias[]; };
-layout(std430) writeonly buffer Deltas { BodyDelta deltas[]; };
-layout(std430) writeonly buffer WarmStarts { BodyWarmStart warm_starts[]; };
+layout(std430) writeonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) writeonly buffer Deltas { BodyDeltaCells deltas[]; };
+layout(std430) writeonly buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 
 void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    BodyPose pose = poses[body];
-    bool movable = is_movable(shapes[body]) && (pose.flags & k_body_frozen) == 0u;
+    BodyPose pose = unpack(poses[body]);
+    bool movable = is_movable(unpack(shapes[body])) && (pose.flags & k_body_frozen) == 0u;
     uint its_substeps = args.x == 1u ? substeps[body] : counters[k_counter_substep_demand];
-    BodyInertia inertia = world_inertia(pose.rotation, properties[body].inverse_inertia, movable,
-                                        is_sphere(shapes[body]), its_substeps);
+    BodyInertia inertia = world_inertia(pose.rotation, unpack(properties[body]).inverse_inertia, movable,
+                                        is_sphere(unpack(shapes[body])), its_substeps);
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);
-    inertias[body] = inertia;
-    deltas[body] = no_delta();
-    warm_starts[body] = no_warm_start(velocities[body]);
+    inertias[body] = pack(inertia);
+    deltas[body] = pack(no_delta());
+    warm_starts[body] = pack(no_warm_start(unpack(velocities[body])));
 }

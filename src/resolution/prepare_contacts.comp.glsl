@@ -15,34 +15,34 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
-layout(std430) readonly buffer Poses { BodyPose poses[]; };
+layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
-layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
-layout(std430) readonly buffer ManifoldPoints { ManifoldPoint manifold_points[]; };
-layout(std430) readonly buffer Velocities { BodyVelocity velocities[]; };
-layout(std430) readonly buffer Inertias { BodyInertia inertias[]; };
-layout(std430) writeonly buffer Constraints { ContactConstraint constraints[]; };
+layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
+layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
+layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) writeonly buffer Constraints { ContactConstraintCells constraints[]; };
 
 void main()
 {
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
     uint manifold_index = manifold_order[index];
-    Manifold manifold = manifolds[manifold_index];
-    BodyInertia inertia_a = inertias[manifold.body_a];
-    BodyInertia inertia_b = inertias[manifold.body_b];
+    Manifold manifold = unpack(manifolds[manifold_index]);
+    BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
+    BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
     uint colour = manifold_keys[index] & ((1u << k_colour_bits) - 1u);
     ContactConstraint c =
-        begin_constraint(manifold, manifold_index, colour, velocities[manifold.body_a].inverse_mass,
-                         velocities[manifold.body_b].inverse_mass, inertia_a, inertia_b);
+        begin_constraint(manifold, manifold_index, colour, unpack(velocities[manifold.body_a]).inverse_mass,
+                         unpack(velocities[manifold.body_b]).inverse_mass, inertia_a, inertia_b);
     for (uint i = 0u; i < manifold.point_count; ++i)
-        c = add_to_centre(c, manifold_points[4u * manifold_index + i]);
-    c = end_centre(c, poses[manifold.body_a].position, poses[manifold.body_b].position);
+        c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]));
+    c = end_centre(c, unpack(poses[manifold.body_a]).position, unpack(poses[manifold.body_b]).position);
     Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     NormalResponse response = respond_to_normals(meeting);
     for (uint i = 0u; i < manifold.point_count; ++i)
-        c = add_point(c, int(i), manifold_points[4u * manifold_index + i], meeting, response);
-    constraints[index] = c;
+        c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), meeting, response);
+    constraints[index] = pack(c);
 }

@@ -20,11 +20,11 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
-layout(std430) buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) writeonly buffer HubChanges { HubChange hub_changes[]; };
 
-BodyVelocity load_velocity(uint body) { return velocities[body]; }
-void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = velocity; }
+BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
+void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 Substep substep_of(uint substeps, bool against_static) { return make_substep(substeps, against_static, parameters); }
 
 const bool k_bounces = !k_hubs;
@@ -46,7 +46,7 @@ void main()
         end = min(end, index + 1u);
     }
     for (; index < end; ++index) {
-        if (args.z >= constraints[index].substeps) continue;
+        if (args.z >= constraints[index].cell_5.w) continue; // its substeps
         take_constraint(index);
         PassTarget target;
         if (args.y != k_warm_start) target = target_of_pass(args.y);

@@ -25,7 +25,7 @@ layout(local_size_x = 384) in; // most islands have no more manifolds; with more
 layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) buffer Counters { uint counters[]; };
-layout(std430) buffer Velocities { BodyVelocity velocities[]; };
+layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 
 shared vec4 linear_and_inverse_mass[k_island_bodies];
 shared float angular[3u * k_island_bodies];
@@ -133,7 +133,7 @@ void main()
     uint me = gl_LocalInvocationID.x;
     uint island = group_index();
     if (islands[island] != island) return;
-    uint last = inertias[island].substeps;
+    uint last = unpack(inertias[island]).substeps;
     if (me == 0u) {
         substep_of_moving = make_substep(last, false, parameters);
         substep_against_static = make_substep(last, true, parameters);
@@ -145,7 +145,7 @@ void main()
         uint body = me + i * gl_WorkGroupSize.x;
         uint its_island = islands[body];
         if (its_island == island) own_bodies |= 1u << i;
-        if (its_island == island || its_island == k_none) store_velocity(body, velocities[body]);
+        if (its_island == island || its_island == k_none) store_velocity(body, unpack(velocities[body]));
     }
     barrier();
     first_index = colour_offsets[0] + me;
@@ -169,6 +169,6 @@ void main()
     if (in_hand != k_none) put_back_impulses(in_hand);
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
         uint body = me + i * gl_WorkGroupSize.x;
-        if (((own_bodies >> i) & 1u) == 1u) velocities[body] = load_velocity(body);
+        if (((own_bodies >> i) & 1u) == 1u) velocities[body] = pack(load_velocity(body));
     }
 }

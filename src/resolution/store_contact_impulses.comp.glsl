@@ -16,25 +16,25 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
-layout(std430) readonly buffer Constraints { ContactConstraint constraints[]; };
+layout(std430) readonly buffer Constraints { ContactConstraintCells constraints[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
-layout(std430) readonly buffer Properties { BodyProperties properties[]; };
-layout(std430) buffer Manifolds { Manifold manifolds[]; };
-layout(std430) writeonly buffer ManifoldPoints { ManifoldPoint manifold_points[]; };
+layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
+layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
+layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 
 void main()
 {
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
-    ContactConstraint c = constraints[index];
+    ContactConstraint c = unpack(constraints[index]);
     vec4 impulse = vec4(0.0);
     for (uint i = 0u; i < c.point_count; ++i) {
         float of_step = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], c.substeps);
-        manifold_points[4u * c.manifold + i].normal_impulse = of_step;
+        manifold_points[4u * c.manifold + i].cell_2.w = floatBitsToUint(of_step); // its normal_impulse
         impulse[i] = of_step;
     }
-    Manifold manifold = manifolds[c.manifold];
+    Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = manifold_keys[index] & ((1u << k_colour_bits) - 1u);
-    manifolds[c.manifold] = finish_manifold(manifold, c, impulse, properties[c.body_a].inverse_mass,
-                                            properties[c.body_b].inverse_mass, parameters);
+    manifolds[c.manifold] = pack(finish_manifold(manifold, c, impulse, unpack(properties[c.body_a]).inverse_mass,
+                                                 unpack(properties[c.body_b]).inverse_mass, parameters));
 }

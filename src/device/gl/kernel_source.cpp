@@ -13,6 +13,8 @@
 
 #include <talus/types.h>
 
+#include "device/gl/record_cells.h"
+
 namespace talus::engine {
 namespace {
 
@@ -114,6 +116,7 @@ KernelSource kernel_source(std::string_view path) {
     assembly.add_text("head of every kernel", "#version 450 core\n");
     for (const char* shared : {"device/gl/dialect.glsl", "state/constants.shared.glsl", "state/records.shared.glsl"})
         assembly.add_file(shared, "every kernel");
+    assembly.add_text("cells of the records", record_cells(shader_text("state/records.shared.glsl", "every kernel")));
     assembly.add_text("parameters of every kernel",
                       "layout(std140) uniform ParametersBlock { Parameters parameters; };\n");
     assembly.add_file(file, "the step");

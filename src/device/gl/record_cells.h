@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// How kernels load and store records: 16 bytes at a time.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace talus::engine {
+
+/// GLSL beside the records that the text declares: for each `struct R` of whole 16-byte cells, of members float, uint,
+/// vec3 and vec4, a `struct RCells` of the members `uvec4 cell_0`, `cell_1`, ..., with the functions `R unpack(RCells)`
+/// and `RCells pack(R)`. A buffer declared as an array of RCells is read with one load a cell, where one declared as an
+/// array of R takes one a member on some GPUs: three to four times as many, and kernels that wait for them.
+std::string record_cells(std::string_view records);
+
+} // namespace talus::engine
