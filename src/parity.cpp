@@ -111,6 +111,7 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     StepPlan plan = simulation.plan_step(population);
     plan.colour_capacity = k_first_hub_colour;
     plan.overflow = true;
+    plan.substep_capacity = plan.most_substeps;
     Device& cpu = simulation.state_device();
     const std::unique_ptr<Device> gpu = make_gl_device(GlContext::Own, false);
     const Parameters parameters = make_parameters(settings, plan);

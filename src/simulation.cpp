@@ -26,10 +26,12 @@ constexpr uint k_most_substeps_of_all = 32;
 constexpr uint k_demand_window = 64;
 
 constexpr std::array k_body_buffers{
-    BufferId::Poses,       BufferId::Velocities, BufferId::Shapes,     BufferId::Properties, BufferId::Loads,
-    BufferId::Aabbs,       BufferId::SortKeys,   BufferId::SortValues, BufferId::PairCounts, BufferId::SpreadSums,
-    BufferId::SortedAabbs, BufferId::Inertias,   BufferId::WarmStarts, BufferId::Deltas,     BufferId::Islands,
-    BufferId::Substeps,    BufferId::Hubs,
+    BufferId::Poses,      BufferId::Velocities,   BufferId::Shapes,       BufferId::Properties,
+    BufferId::Loads,      BufferId::Aabbs,        BufferId::SortKeys,     BufferId::SortValues,
+    BufferId::PairCounts, BufferId::SpreadSums,   BufferId::SortedAabbs,  BufferId::Inertias,
+    BufferId::WarmStarts, BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,
+    BufferId::Hubs,       BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,
+    BufferId::IslandFill, BufferId::IslandBodies, BufferId::IslandPlaces,
 };
 
 constexpr std::array k_pair_buffers{
@@ -152,13 +154,16 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.relax = passes.relax;
     now.small = population.slots <= k_island_bodies;
     now.one_island = population.some_kinematic;
-    now.in_groups = now.small && plan.hub_capacity == 0 && placement.resolution->loops_freely();
+    now.in_groups = now.small ? plan.hub_capacity == 0 && placement.resolution->loops_freely() : !now.one_island;
     now.bounces = population.some_bounce;
     now.overflow = plan.overflow || settings.solve_order == SolveOrder::Sequential;
     now.least_substeps = passes.least_substeps;
     now.most_substeps = now.small ? passes.most_substeps
                                   : std::clamp(k_most_substeps_of_all, passes.least_substeps, passes.most_substeps);
-    now.substep_capacity = std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps);
+    // Without launches where work groups did all the work; otherwise within what the settings allow.
+    const bool some = !now.solves_groups() || plan.substep_capacity > 0;
+    now.substep_capacity = some ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;
+    if (!some) now.colour_capacity = 0;
     return now;
 }
 
@@ -220,9 +225,9 @@ void Simulation::finish_oldest() {
 }
 
 void Simulation::follow_demand(std::span<const uint> counters) {
-    const uint colours = counters[k_counter_colour_demand], substeps = counters[k_counter_substep_demand];
+    const uint colours = counters[k_counter_launched_colours], substeps = counters[k_counter_launched_substeps];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
-    if (counters[k_counter_overflow_count] > 0) plan.overflow = true;
+    if (counters[k_counter_launched_overflow] > 0) plan.overflow = true;
     const uint wanted_colours = std::min(colours + 1, k_first_hub_colour); // one to spare
     plan.colour_capacity = std::max(plan.colour_capacity, wanted_colours);
     plan.substep_capacity = std::max(plan.substep_capacity, substeps);

@@ -22,15 +22,18 @@ struct StepPlan {
     uint colour_capacity = 0; ///< colours that get launches
     bool overflow = false;    ///< the overflow set gets launches
     uint hub_capacity = 0;    ///< manifolds of hubs that there is room for; 0: hubs get no launches
-    bool small = false;       ///< small enough for islands, each with sub-steps of its own
+    bool small = false;       ///< up to k_island_bodies body slots
     bool one_island = false;  ///< islands are not told apart: a kinematic body may be part of several
-    bool in_groups = false;   ///< one work group solves an island
+    bool in_groups = false;   ///< work groups solve islands: each of a small world, the little ones of a large world
     uint least_substeps = 0;
     uint most_substeps = 0;
     uint substep_capacity = 0; ///< sub-steps that get launches
     uint iterations = 0;
     bool relax = false;
     bool bounces = false; ///< some body has a restitution above 0
+
+    bool solves_groups() const { return in_groups && !small; }
+    bool solves_all_in_groups() const { return in_groups && small; }
 };
 
 /// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sub-step does to one body. Before this file the kernel defines load_velocity and store_velocity, as for
+// What a sub-step does to one body. Before this file the kernel defines slot_of, load_velocity and store_velocity, as for
 // contact_passes.glsl, and declares Inertias, Deltas, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
@@ -17,7 +17,7 @@ void integrate_body(uint body, uint substep)
     BodyPose pose = unpack(poses[body]);
     if ((pose.flags & k_body_frozen) != 0u) return;
     float h = substep_length(inertia.substeps, parameters);
-    BodyVelocity velocity = load_velocity(body);
+    BodyVelocity velocity = load_velocity(slot_of(body));
     BodyDelta delta = load_delta(body);
     BodyWarmStart warm = load_warm_start(body);
     if (substep > 0u) {
@@ -40,5 +40,5 @@ void integrate_body(uint body, uint substep)
     warm.linear_before = velocity.linear;
     warm.angular_before = velocity.angular;
     warm_starts[body] = pack(warm);
-    store_velocity(body, velocity);
+    store_velocity(slot_of(body), velocity);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A contact constraint in an invocation's hand, and the passes over it. Before this file the kernel defines
-//   BodyVelocity load_velocity(uint body)
-//   void store_velocity(uint body, BodyVelocity velocity)
+//   uint slot_of(uint body), where a body's velocity is found
+//   BodyVelocity load_velocity(uint slot)
+//   void store_velocity(uint slot, BodyVelocity velocity)
 //   Substep substep_of(uint substeps, bool against_static)
 //   const bool k_bounces, whether there may be a restitution above 0
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
@@ -35,6 +36,8 @@ const uint k_relax = 3u;       // without bias
 // The constraint in hand.
 uint body_a;
 uint body_b;
+uint slot_a;
+uint slot_b;
 uint traits;
 uint substeps;
 vec3 gap_at_start;
@@ -49,6 +52,8 @@ void take_constraint(uint index)
     BodyInertia inertia_b = unpack(inertias[c.body_b]);
     body_a = c.body_a;
     body_b = c.body_b;
+    slot_a = slot_of(body_a);
+    slot_b = slot_of(body_b);
     traits = c.traits;
     substeps = c.substeps;
     gap_at_start = c.gap;
@@ -87,8 +92,8 @@ PassTarget target_of_pass(uint pass)
 ManifoldState begin_pass()
 {
     ManifoldState s;
-    s.velocities.a = load_velocity(body_a);
-    s.velocities.b = load_velocity(body_b);
+    s.velocities.a = load_velocity(slot_a);
+    s.velocities.b = load_velocity(slot_b);
     s.impulses = impulses;
     s.is_hit = false;
     return s;
@@ -121,19 +126,19 @@ ManifoldState pass_over_hit(uint index, float old_share)
 }
 
 // A body that contacts cannot push may be in many constraints of one colour: nobody writes it. Nor a hub.
-void put_velocity(uint index, uint body, uint its_traits, BodyVelocity before, BodyVelocity after)
+void put_velocity(uint index, uint body, uint slot, uint its_traits, BodyVelocity before, BodyVelocity after)
 {
     if (after.inverse_mass == 0.0) return;
     if (k_hubs && (its_traits & k_trait_hub) != 0u)
         put_change(index, change_of_hub(body, before, after, unpack(inertias[body])));
     else
-        store_velocity(body, after);
+        store_velocity(slot, after);
 }
 
 void put_velocities(uint index, VelocityPair before, VelocityPair after)
 {
-    put_velocity(index, body_a, traits, before.a, after.a);
-    put_velocity(index, body_b, traits >> k_traits_of_b, before.b, after.b);
+    put_velocity(index, body_a, slot_a, traits, before.a, after.a);
+    put_velocity(index, body_b, slot_b, traits >> k_traits_of_b, before.b, after.b);
 }
 
 // One pass over the constraint in hand, whose index it is.

@@ -1,5 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The order in which manifolds stand for the solver.
+// Islands, and the order in which manifolds stand for the solver.
+//
+// Islands are the sets of rigid bodies that contacts join; each is named by its lowest body slot. They are found by
+// union and find with the lower slot as the root, whoever comes first.
 
-// Manifolds are sorted by island, and within it by colour.
+// Manifolds are sorted by what solves them, and within it by colour: by island in a small world, by group in a large one.
 inline uint manifold_key(uint island, uint colour) { return (island << k_colour_bits) | colour; }
+
+// ---- large worlds ----
+
+const uint k_launched = 0u; // in place of a group: the island has too many bodies for one
+
+// Groups are counted from 1, so that what is launched comes first.
+inline uint island_group(uint size, uint start)
+{
+    return size <= k_most_grouped ? start / k_group_window + 1u : k_launched;
+}
+
+inline uint count_groups(uint body_count) { return (body_count + k_group_window - 1u) / k_group_window; }
+
+// Of a pair that does not touch: after all others.
+inline uint inactive_key(uint body_count) { return manifold_key(count_groups(body_count) + 1u, k_inactive_colour); }

@@ -7,29 +7,33 @@
 namespace talus::engine {
 
 static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
-    const bool in_groups = launch.args[0] == 1;
+    const bool groups = launch.args[0] == 1, launches = launch.args[1] == 0;
     const Array<uint>& offsets = state.colour_offsets;
     const Array<uint>& counters = state.counters;
-    const uint overflow_count = counters[k_counter_overflow_count];
-    if (!in_groups && (counters[k_counter_colour_demand] > state.parameters.colour_capacity ||
-                       (overflow_count > 0 && state.parameters.overflow_capacity == 0)))
-        counters[k_counter_did_not_fit] |= k_fit_colours;
-    if (!in_groups && counters[k_counter_substep_demand] > state.parameters.substep_capacity)
-        counters[k_counter_did_not_fit] |= k_fit_substeps;
+    const Parameters& p = state.parameters;
+    uint& did_not_fit = counters[k_counter_did_not_fit];
+    const uint colours = counters[groups ? k_counter_launched_colours : k_counter_colour_demand];
+    const uint substeps = counters[groups ? k_counter_launched_substeps : k_counter_substep_demand];
+    const uint overflow_count = counters[groups ? k_counter_launched_overflow : k_counter_overflow_count];
+    if (launches && (colours > p.colour_capacity || (overflow_count > 0 && p.overflow_capacity == 0)))
+        did_not_fit |= k_fit_colours;
+    if (launches && substeps > p.substep_capacity) did_not_fit |= k_fit_substeps;
+    if (counters[k_counter_hub_manifolds] > (launches ? p.hub_capacity : 0)) did_not_fit |= k_fit_hubs;
 
-    if (counters[k_counter_hub_manifolds] > (in_groups ? 0 : state.parameters.hub_capacity))
-        counters[k_counter_did_not_fit] |= k_fit_hubs;
-
-    const uint on = counters[k_counter_did_not_fit] == 0 ? 1 : 0;
-    state.dispatches[k_dispatch_bodies] = groups_for(on * state.parameters.body_count, k_group_size);
+    const uint on = did_not_fit == 0 ? 1 : 0;
+    const uint group_count = launches ? count_groups(p.body_count) : p.body_count;
+    state.dispatches[k_dispatch_bodies] = groups_for(on * p.body_count, k_group_size);
     state.dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
-    state.dispatches[k_dispatch_islands] = groups_for(on * state.parameters.body_count, 1);
+    state.dispatches[k_dispatch_islands] = groups_for(on * group_count, 1);
     for (uint colour = 0; colour < k_max_colours; ++colour) {
-        const uint count = in_groups ? 0 : offsets[colour + 1] - offsets[colour];
+        const uint count = launches ? offsets[colour + 1] - offsets[colour] : 0;
         state.dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     }
     state.dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1);
     state.dispatches[k_dispatch_hubs] = groups_for(on * counters[k_counter_hub_count], 1);
+    counters[k_counter_launched_colours] = colours;
+    counters[k_counter_launched_substeps] = substeps;
+    counters[k_counter_launched_overflow] = overflow_count;
 }
 
 const Kernel plan_colours{"resolution/plan_colours", plan_colours_on_cpu, 1};

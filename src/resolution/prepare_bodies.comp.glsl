@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
-// args.x: 1 where islands have numbers of their own.
-// Reads: Poses, Velocities, Properties, Shapes, Substeps, Counters, BodyColours.
+// args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands.
+// Reads: Poses, Velocities, Properties, Shapes, Substeps, IslandGroups, Counters, BodyColours.
 // Writes: Inertias, Deltas, WarmStarts.
-// Needs: a barrier after find_islands or keep_colours.
+// Needs: a barrier after find_islands, group_islands or keep_colours.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -17,6 +18,7 @@ layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
+layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) writeonly buffer Inertias { BodyInertiaCells inertias[]; };
@@ -33,6 +35,7 @@ void main()
     BodyInertia inertia = world_inertia(pose.rotation, unpack(properties[body]).inverse_inertia, movable,
                                         is_sphere(unpack(shapes[body])), its_substeps);
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);
+    if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
     deltas[body] = pack(no_delta());
     warm_starts[body] = pack(no_warm_start(unpack(velocities[body])));

@@ -6,33 +6,50 @@
 
 #include "primitives/primitives.h"
 #include "resolution/contact_passes.h"
+#include "state/formulas.h"
 #include "step.h"
 
 namespace talus::engine {
 
 // Islands have the numbers of their body slots, and one more stands for pairs that do not touch.
-static constexpr uint k_island_key_bits = k_colour_bits + std::bit_width(k_island_bodies);
+static uint manifold_key_bits(const StepPlan& plan) {
+    if (!plan.in_groups) return k_colour_bits;
+    return k_colour_bits + std::bit_width(plan.small ? k_island_bodies : count_groups(plan.body_count) + 1);
+}
+
+/// Of a large world, and what of it a work group can solve.
+static void find_island_groups(Device& device, const StepPlan& plan) {
+    device.run({.kernel = begin_islands, .items = plan.body_count});
+    device.run({.kernel = join_islands, .slot = k_dispatch_pairs});
+    device.run({.kernel = measure_islands, .items = plan.body_count});
+    exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_body_count, k_none);
+    device.run({.kernel = group_islands, .items = plan.body_count});
+    device.run({.kernel = key_manifolds, .slot = k_dispatch_pairs});
+}
 
 void constraint_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_colours, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
     device.run({.kernel = assign_colours, .items = 1});
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
+    if (plan.solves_groups()) find_island_groups(device, plan);
     sort_by_key(device, {.keys = BufferId::ManifoldKeys,
                          .values = BufferId::ManifoldOrder,
                          .keys_swap = BufferId::SortedManifoldKeys,
                          .values_swap = BufferId::SortedManifoldOrder,
                          .capacity = plan.pair_capacity,
                          .count_counter = k_counter_pair_count,
-                         .bits = plan.in_groups ? k_island_key_bits : k_colour_bits,
+                         .bits = manifold_key_bits(plan),
                          .slot = k_dispatch_pair_tiles});
-    if (!plan.in_groups)
+    if (!plan.solves_all_in_groups())
         find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
-    device.run({.kernel = plan_colours, .items = 1, .args = {plan.in_groups}});
+    device.run({.kernel = plan_colours, .items = 1, .args = {plan.solves_groups(), plan.solves_all_in_groups()}});
 }
 
 void prepare(Device& device, const StepPlan& plan) {
-    device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.small}});
+    device.run({.kernel = prepare_bodies,
+                .slot = k_dispatch_bodies,
+                .args = {plan.small || plan.in_groups, plan.solves_groups()}});
     device.run({.kernel = prepare_contacts, .slot = k_dispatch_manifolds});
 }
 
@@ -52,10 +69,11 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 
 void solve(Device& device, const StepPlan& plan) {
     if (plan.in_groups) {
-        const Kernel& solve_all = plan.bounces ? solve_bouncing_islands : solve_islands;
-        device.run({.kernel = solve_all, .slot = k_dispatch_islands});
-        return;
+        const Kernel& of_small = plan.bounces ? solve_bouncing_islands : solve_islands;
+        const Kernel& of_large = plan.bounces ? solve_bouncing_groups : solve_island_groups;
+        device.run({.kernel = plan.small ? of_small : of_large, .slot = k_dispatch_islands});
     }
+    if (plan.solves_all_in_groups() || plan.substep_capacity == 0) return;
     for (uint substep = 0; substep < plan.substep_capacity; ++substep) {
         device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {substep}});
         // Later sub-steps find their warm start body by body (body.shared.glsl).

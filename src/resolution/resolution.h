@@ -9,8 +9,8 @@ namespace talus::engine {
 
 struct StepPlan;
 
-/// Colours every manifold: no two of one colour share a body that contacts can push. A small world is divided into
-/// islands besides, as these are independent.
+/// Colours every manifold: no two of one colour share a body that contacts can push. Divides the world into islands
+/// besides, as these are independent.
 void constraint_graph(Device&, const StepPlan&);
 /// Effective masses and the solver's records, in the order of colours.
 void prepare(Device&, const StepPlan&);
@@ -23,6 +23,11 @@ extern const Kernel clear_colours;
 extern const Kernel keep_colours;
 extern const Kernel assign_colours;
 extern const Kernel find_islands;
+extern const Kernel begin_islands;
+extern const Kernel join_islands;
+extern const Kernel measure_islands;
+extern const Kernel group_islands;
+extern const Kernel key_manifolds;
 extern const Kernel plan_colours;
 extern const Kernel prepare_bodies;
 extern const Kernel prepare_contacts;
@@ -32,6 +37,8 @@ extern const Kernel solve_hub_contacts;
 extern const Kernel move_hubs;
 extern const Kernel solve_islands;
 extern const Kernel solve_bouncing_islands;
+extern const Kernel solve_island_groups;
+extern const Kernel solve_bouncing_groups;
 extern const Kernel store_contact_impulses;
 
 } // namespace talus::engine

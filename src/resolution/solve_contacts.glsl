@@ -23,6 +23,7 @@ layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) writeonly buffer HubChanges { HubChange hub_changes[]; };
 
+uint slot_of(uint body) { return body; }
 BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 Substep substep_of(uint substeps, bool against_static) { return make_substep(substeps, against_static, parameters); }

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of solve_islands.comp.glsl.
-#include <vector>
-
+#include "resolution/solve_islands.h"
 #include "resolution/body_passes.h"
 #include "resolution/contact_passes.h"
 #include "resolution/resolution.h"
-#include "resolution/solve_islands.h"
 
 namespace talus::engine {
-namespace {
-
-struct Island {
-    std::vector<uint> bodies;
-    uint first = 0, end = 0; // manifolds
-};
 
 /// Those that have bodies. Manifolds are sorted by island.
-std::vector<Island> collect_islands(const CpuState& state) {
+static std::vector<IslandWork> collect_islands(const CpuState& state) {
     const uint body_count = state.parameters.body_count;
-    std::vector<Island> islands(body_count);
+    std::vector<IslandWork> islands(body_count);
     for (uint body = 0; body < body_count; ++body)
         if (state.islands[body] != k_none) islands[state.islands[body]].bodies.push_back(body);
     uint index = 0;
@@ -29,17 +21,19 @@ std::vector<Island> collect_islands(const CpuState& state) {
             ++index;
         islands[island].end = index;
     }
-    std::erase_if(islands, [](const Island& island) { return island.bodies.empty(); });
+    std::erase_if(islands, [](const IslandWork& island) { return island.bodies.empty(); });
     return islands;
 }
 
-void solve_island(CpuState& state, const Island& island) {
+void solve_island(CpuState& state, const IslandWork& island) {
     const Parameters& p = state.parameters;
     const auto over_contacts = [&](ContactPass pass, uint substep = 0) {
         for (uint index = island.first; index < island.end; ++index)
             pass_over_constraint(state, pass, substep, index);
     };
-    const uint last = state.substeps[island.bodies.front()];
+    uint last = 0;
+    for (const uint body : island.bodies)
+        last = max(last, state.inertias[body].substeps);
     for (uint substep = 0; substep <= last; ++substep) {
         for (const uint body : island.bodies)
             integrate_body(state, body, substep);
@@ -51,10 +45,8 @@ void solve_island(CpuState& state, const Island& island) {
     if (p.relax == 1) over_contacts(ContactPass::Relax);
 }
 
-} // namespace
-
 void solve_islands_on_cpu(CpuState& state, const Launch&) {
-    const std::vector<Island> islands = collect_islands(state);
+    const std::vector<IslandWork> islands = collect_islands(state);
     state.parallel(
         static_cast<uint>(islands.size()), [&](uint i) { solve_island(state, islands[i]); }, 2);
 }

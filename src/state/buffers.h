@@ -47,6 +47,12 @@ namespace talus::engine {
     /* resolution */                                                                                                   \
     X(Islands, islands, uint, "u", Result)                                                                             \
     X(Substeps, substeps, uint, "u", Result)                                                                           \
+    X(IslandSizes, island_sizes, uint, "u", Result)                                                                    \
+    X(IslandStarts, island_starts, uint, "u", Result)                                                                  \
+    X(IslandGroups, island_groups, uint, "u", Result)                                                                  \
+    X(IslandFill, island_fill, uint, "u", Scratch)                                                                     \
+    X(IslandBodies, island_bodies, uint, "u", Scratch)                                                                 \
+    X(IslandPlaces, island_places, uint, "u", Scratch)                                                                 \
     X(BodyColours, body_colours, uint, "u", Scratch)                                                                   \
     X(Uncoloured, uncoloured, uint, "u", Scratch)                                                                      \
     X(ManifoldKeys, manifold_keys, uint, "u", Result)                                                                  \

@@ -23,6 +23,7 @@ const uint k_body_placed = 2u; // the caller put it there since the last step
 const uint k_trait_movable = 1u; // contacts can push the body
 const uint k_trait_round = 2u;   // a sphere: where it is touched does not turn with it
 const uint k_trait_hub = 4u;     // a hub; in a constraint: of whose mass this is a share
+const uint k_trait_grouped = 8u; // of an island that a work group solves
 const uint k_trait_shares = 8u;  // from this bit on: the number of shares
 
 // BodyProperties::combine
@@ -55,7 +56,11 @@ const uint k_counter_old_pair_count = 10u; // entries of OldManifolds
 const uint k_counter_substep_demand = 11u; // most sub-steps that a manifold asks for
 const uint k_counter_hub_count = 12u;
 const uint k_counter_hub_manifolds = 13u; // in the colours for hubs
-const uint k_counter_words = 16u;
+// Of the manifolds that are solved by launches; work groups that solve islands need none.
+const uint k_counter_launched_colours = 14u;
+const uint k_counter_launched_substeps = 15u;
+const uint k_counter_launched_overflow = 16u;
+const uint k_counter_words = 20u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -70,7 +75,7 @@ const uint k_dispatch_pair_tiles = 1u; // sort tiles of pairs
 const uint k_dispatch_old_pairs = 2u;  // groups of 64 pairs of the last step
 const uint k_dispatch_bodies = 3u;     // groups of 64 bodies
 const uint k_dispatch_manifolds = 4u;  // groups of 64 manifolds
-const uint k_dispatch_islands = 5u;    // one group for each body slot, which may lead an island
+const uint k_dispatch_islands = 5u;    // a group for each body slot, which may lead an island, or for each group of islands
 const uint k_dispatch_colours = 6u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
 const uint k_dispatch_overflow = k_dispatch_colours + k_max_colours; // one group if there is an overflow set
 const uint k_dispatch_hubs = k_dispatch_overflow + 1u; // one group for each hub
@@ -82,3 +87,8 @@ const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
 const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island
+// In a larger world a work group solves several islands: those that begin within a window of so many bodies, in the order
+// of islands. It has room for them, and for the rest of the last one.
+const uint k_group_window = 48u;
+const uint k_most_grouped = 208u; // bodies of an island that a group can solve
+const uint k_group_room = k_group_window + k_most_grouped; // bodies

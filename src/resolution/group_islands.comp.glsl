@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body slot: its island's sub-steps and group, and its place among the bodies in the order of islands.
+// Reads: Islands, IslandSizes, IslandStarts (scanned).
+// Writes: Substeps, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
+// first; nothing that is made from it does.
+// Needs: a barrier after the scan of IslandStarts.
+// Overflow: none.
+#include "resolution/island.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Islands { uint islands[]; };
+layout(std430) readonly buffer IslandSizes { uint island_sizes[]; };
+layout(std430) readonly buffer IslandStarts { uint island_starts[]; };
+layout(std430) buffer Substeps { uint substeps[]; };
+layout(std430) buffer IslandFill { uint island_fill[]; };
+layout(std430) writeonly buffer IslandGroups { uint island_groups[]; };
+layout(std430) writeonly buffer IslandPlaces { uint island_places[]; };
+layout(std430) writeonly buffer IslandBodies { uint island_bodies[]; };
+layout(std430) buffer Counters { uint counters[]; };
+
+void main()
+{
+    uint body = item_index();
+    if (body >= parameters.body_count) return;
+    uint island = islands[body];
+    island_groups[body] = k_launched;
+    island_places[body] = k_none;
+    if (island == k_none) return;
+    uint group = island_group(island_sizes[island], island_starts[island]);
+    uint place = island_starts[island] + atomicAdd(island_fill[island], 1u);
+    island_groups[body] = group;
+    island_places[body] = place;
+    island_bodies[place] = body;
+    uint of_island = substeps[island];
+    if (body != island) substeps[body] = of_island;
+    if (group == k_launched && body == island) atomicMax(counters[k_counter_launched_substeps], of_island);
+}

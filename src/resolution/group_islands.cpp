@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of group_islands.comp.glsl.
+#include "device/cpu/cpu_state.h"
+#include "resolution/resolution.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void group_islands_on_cpu(CpuState& state, const Launch&) {
+    uint& launched_substeps = state.counters[k_counter_launched_substeps];
+    for (uint body = 0; body < state.parameters.body_count; ++body) {
+        const uint island = state.islands[body];
+        state.island_groups[body] = k_launched;
+        state.island_places[body] = k_none;
+        if (island == k_none) continue;
+        const uint place = state.island_starts[island] + state.island_fill[island]++;
+        state.island_groups[body] = island_group(state.island_sizes[island], state.island_starts[island]);
+        state.island_places[body] = place;
+        state.island_bodies[place] = body;
+        state.substeps[body] = state.substeps[island];
+        if (state.island_groups[body] == k_launched) launched_substeps = max(launched_substeps, state.substeps[island]);
+    }
+}
+
+const Kernel group_islands{"resolution/group_islands", group_islands_on_cpu};
+
+} // namespace talus::engine

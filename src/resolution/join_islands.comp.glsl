@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a pair: joins the islands of two bodies that touch, by hanging the larger root below the smaller one
+// (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
+// sub-steps of the manifold that asks for most.
+// Reads: Counters, Manifolds.
+// Writes: Islands, Substeps. Which body hangs below which depends on who comes first; the roots do not.
+// Needs: a barrier after begin_islands.
+// Overflow: none.
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
+layout(std430) coherent buffer Islands { uint islands[]; };
+layout(std430) buffer Substeps { uint substeps[]; };
+
+#include "resolution/island_roots.glsl"
+
+void join(uint body_a, uint body_b)
+{
+    uint root_a = root_of(body_a);
+    uint root_b = root_of(body_b);
+    while (root_a != root_b) {
+        uint upper = max(root_a, root_b);
+        uint lower = min(root_a, root_b);
+        uint found = atomicCompSwap(islands[upper], upper, lower);
+        if (found == upper) return;
+        // Somebody else has hung it elsewhere meanwhile.
+        root_a = root_of(found);
+        root_b = root_of(lower);
+    }
+}
+
+void main()
+{
+    uint pair = item_index();
+    if (pair >= counters[k_counter_pair_count]) return;
+    Manifold manifold = unpack(manifolds[pair]);
+    if (manifold.point_count == 0u) return;
+    bool pushes_a = islands[manifold.body_a] != k_none;
+    bool pushes_b = islands[manifold.body_b] != k_none;
+    if (pushes_a) atomicMax(substeps[manifold.body_a], manifold.substeps);
+    if (pushes_b) atomicMax(substeps[manifold.body_b], manifold.substeps);
+    if (pushes_a && pushes_b) join(manifold.body_a, manifold.body_b);
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a pair: its manifold's place in the order of the solve, by group and then by colour.
+// Reads: IslandGroups, Islands, Manifolds.
+// Writes: ManifoldKeys, in which it finds the colour; Counters, what needs launches.
+// Needs: a barrier after group_islands.
+// Overflow: none.
+#include "resolution/island.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
+layout(std430) readonly buffer Islands { uint islands[]; };
+layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
+layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
+layout(std430) buffer Counters { uint counters[]; };
+
+void main()
+{
+    uint pair = item_index();
+    if (pair >= counters[k_counter_pair_count]) return;
+    uint colour = manifold_keys[pair];
+    if (colour == k_inactive_colour) {
+        manifold_keys[pair] = inactive_key(parameters.body_count);
+        return;
+    }
+    Manifold manifold = unpack(manifolds[pair]);
+    uint body = islands[manifold.body_a] != k_none ? manifold.body_a : manifold.body_b;
+    uint group = island_groups[body];
+    manifold_keys[pair] = manifold_key(group, colour);
+    if (group != k_launched) return;
+    if (colour < k_first_hub_colour) atomicMax(counters[k_counter_launched_colours], colour + 1u);
+    if (colour == k_overflow_colour) atomicAdd(counters[k_counter_launched_overflow], 1u);
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of key_manifolds.comp.glsl.
+#include "device/cpu/cpu_state.h"
+#include "resolution/resolution.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void key_manifolds_on_cpu(CpuState& state, const Launch&) {
+    for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
+        uint& key = state.manifold_keys[pair];
+        const uint colour = key;
+        if (colour == k_inactive_colour) {
+            key = inactive_key(state.parameters.body_count);
+            continue;
+        }
+        const Manifold& manifold = state.manifolds[pair];
+        const bool pushes_a = state.islands[manifold.body_a] != k_none;
+        const uint group = state.island_groups[pushes_a ? manifold.body_a : manifold.body_b];
+        key = manifold_key(group, colour);
+        if (group != k_launched) continue;
+        uint& colours = state.counters[k_counter_launched_colours];
+        if (colour < k_first_hub_colour) colours = max(colours, colour + 1);
+        if (colour == k_overflow_colour) ++state.counters[k_counter_launched_overflow];
+    }
+}
+
+const Kernel key_manifolds{"resolution/key_manifolds", key_manifolds_on_cpu};
+
+} // namespace talus::engine

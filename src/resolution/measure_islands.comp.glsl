@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body slot: names its island, and adds itself to it. A hub counts as more than a group can solve,
+// as it needs launches of its own.
+// Reads: BodyColours.
+// Writes: Islands; of the island IslandSizes, the same into IslandStarts, and Substeps.
+// Needs: barriers after join_islands and assign_colours.
+// Overflow: none.
+#include "resolution/colouring.shared.glsl"
+#include "resolution/island.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer BodyColours { uint body_colours[]; };
+layout(std430) coherent buffer Islands { uint islands[]; };
+layout(std430) buffer Substeps { uint substeps[]; };
+layout(std430) buffer IslandSizes { uint island_sizes[]; };
+layout(std430) buffer IslandStarts { uint island_starts[]; };
+
+#include "resolution/island_roots.glsl"
+
+void main()
+{
+    uint body = item_index();
+    if (body >= parameters.body_count || islands[body] == k_none) return;
+    uint island = root_of(body);
+    islands[body] = island;
+    atomicMax(substeps[island], substeps[body]);
+    bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
+    atomicAdd(island_sizes[island], is_hub ? 1u + k_most_grouped : 1u);
+    atomicAdd(island_starts[island], 1u);
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of measure_islands.comp.glsl.
+#include "device/cpu/cpu_state.h"
+#include "resolution/resolution.h"
+#include "state/formulas.h"
+
+namespace talus::engine {
+
+static void measure_islands_on_cpu(CpuState& state, const Launch&) {
+    // A parent is lower than its child, and so has its root already.
+    for (uint body = 0; body < state.parameters.body_count; ++body) {
+        if (state.islands[body] == k_none) continue;
+        const uint island = state.islands[body] = state.islands[state.islands[body]];
+        state.substeps[island] = max(state.substeps[island], state.substeps[body]);
+        const bool is_hub = state.body_colours[body_word(body, k_hub_word)] != 0;
+        state.island_sizes[island] += is_hub ? 1 + k_most_grouped : 1;
+        ++state.island_starts[island];
+    }
+}
+
+const Kernel measure_islands{"resolution/measure_islands", measure_islands_on_cpu};
+
+} // namespace talus::engine

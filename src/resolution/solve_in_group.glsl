@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// What a work group does that solves islands: all their sub-steps, with velocities in shared memory. A pass over a colour
+// costs a barrier here and a dispatch otherwise. The passes and their order are those of solve() in resolution.cpp, and so
+// are the bits: islands do not touch each other.
+// An invocation keeps the manifold that it has in hand from pass to pass. Where there are more manifolds than
+// invocations it takes the next one before it waits for the others, so that nobody waits for memory.
+// Before this file the kernel gives its number of invocations, declares Islands, and defines
+//   const bool k_bounces, as for contact_passes.glsl
+//   const uint k_room, the bodies that there is room for
+//   uint slot_of(uint body), the body's place there; k_room if it is one that nothing moves
+//   const uint k_own_bodies, the most that an invocation has, and uint own_body(uint i), k_none for no body
+// Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
+// Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen.
+
+layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
+layout(std430) buffer Counters { uint counters[]; };
+layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
+
+shared vec4 linear_and_inverse_mass[k_room + 1u];
+shared float angular[3u * (k_room + 1u)];
+shared uint most_substeps;
+// Where the group's manifolds of each colour begin; the overflow set last.
+shared uint colour_offsets[k_max_colours + 2u];
+
+BodyVelocity load_velocity(uint slot)
+{
+    BodyVelocity velocity;
+    velocity.linear = linear_and_inverse_mass[slot].xyz;
+    velocity.inverse_mass = linear_and_inverse_mass[slot].w;
+    velocity.angular = vec3(angular[3u * slot], angular[3u * slot + 1u], angular[3u * slot + 2u]);
+    velocity.reserved = 0.0;
+    return velocity;
+}
+
+void store_velocity(uint slot, BodyVelocity velocity)
+{
+    linear_and_inverse_mass[slot] = vec4(velocity.linear, velocity.inverse_mass);
+    angular[3u * slot] = velocity.angular.x;
+    angular[3u * slot + 1u] = velocity.angular.y;
+    angular[3u * slot + 2u] = velocity.angular.z;
+}
+
+Substep substep_of(uint substeps, bool against_static) { return make_substep(substeps, against_static, parameters); }
+
+const bool k_hubs = false; // their islands are solved with a launch for each colour
+void put_change(uint index, HubChange change) {}
+
+#include "resolution/contact_passes.glsl"
+#include "resolution/body_passes.glsl"
+
+// How many of the manifolds from `lower` on, up to `upper`, have a lower key; and `lower` on top.
+uint count_below(uint key, uint lower, uint upper)
+{
+    while (lower < upper) {
+        uint middle = (lower + upper) / 2u;
+        if (manifold_keys[middle] < key)
+            lower = middle + 1u;
+        else
+            upper = middle;
+    }
+    return lower;
+}
+
+// `group`: the number in the manifolds' keys.
+void find_colours(uint group)
+{
+    uint me = gl_LocalInvocationID.x;
+    if (me < 2u) colour_offsets[me] = count_below(manifold_key(group + me, 0u), 0u, counters[k_counter_manifold_count]);
+    barrier();
+    uint first = colour_offsets[0];
+    uint end = colour_offsets[1];
+    barrier();
+    for (uint colour = me; colour < k_max_colours + 2u; colour += gl_WorkGroupSize.x)
+        colour_offsets[colour] = count_below(manifold_key(group, colour), first, end);
+}
+
+// This invocation's manifolds: every gl_WorkGroupSize.x-th of the group's, without the overflow set.
+uint first_index;
+uint end_index;
+uint in_hand; // k_none: none
+
+void take(uint index)
+{
+    if (index >= end_index) index = first_index; // round to the first again
+    if (index == in_hand || index >= end_index) return;
+    if (in_hand != k_none) put_back_impulses(in_hand);
+    take_constraint(index);
+    in_hand = index;
+}
+
+void pass_over_contacts(uint pass, uint substep)
+{
+    PassTarget target;
+    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass);
+    uint colour_end = colour_offsets[0];
+    for (uint colour = 0u; colour < k_max_colours && colour_end < colour_offsets[k_overflow_colour]; ++colour) {
+        uint colour_begin = colour_end;
+        colour_end = colour_offsets[colour + 1u];
+        if (colour_begin == colour_end) continue;
+        while (in_hand >= colour_begin && in_hand < colour_end) {
+            uint done = in_hand;
+            if (substep < substeps) pass_over_constraint(pass, in_hand, target);
+            take(in_hand + gl_WorkGroupSize.x);
+            if (in_hand <= done) break; // that was the last one: the next pass begins with the first
+            if (pass != k_warm_start) target = target_of_pass(pass);
+        }
+        barrier();
+    }
+
+    uint overflow_end = colour_offsets[k_overflow_colour + 1u];
+    if (colour_offsets[k_overflow_colour] == overflow_end) return;
+    if (gl_LocalInvocationID.x == 0u) { // one after the other
+        if (in_hand != k_none) put_back_impulses(in_hand);
+        in_hand = k_none;
+        for (uint index = colour_offsets[k_overflow_colour]; index < overflow_end; ++index) {
+            take_constraint(index);
+            if (pass != k_warm_start) target = target_of_pass(pass);
+            if (substep < substeps) pass_over_constraint(pass, index, target);
+            put_back_impulses(index);
+        }
+        take(first_index);
+    }
+    barrier();
+}
+
+void solve_group(uint group)
+{
+    uint me = gl_LocalInvocationID.x;
+    if (me == 0u) {
+        most_substeps = 0u;
+        store_velocity(k_room, frozen_velocity());
+    }
+    barrier();
+    uint own_bodies = 0u; // a bit for each
+    for (uint i = 0u; i < k_own_bodies; ++i) {
+        uint body = own_body(i);
+        if (body == k_none) continue;
+        own_bodies |= 1u << i;
+        store_velocity(slot_of(body), unpack(velocities[body]));
+        atomicMax(most_substeps, unpack(inertias[body]).substeps);
+    }
+    find_colours(group);
+    barrier();
+    uint last = most_substeps;
+    first_index = colour_offsets[0] + me;
+    end_index = colour_offsets[k_overflow_colour];
+    in_hand = k_none;
+    take(first_index);
+
+    for (uint substep = 0u; substep <= last; ++substep) {
+        for (uint i = 0u; own_bodies >> i != 0u; ++i) {
+            if (((own_bodies >> i) & 1u) == 1u) integrate_body(own_body(i), substep);
+        }
+        groupMemoryBarrier();
+        barrier();
+        if (substep == last) break;
+        if (substep == 0u) pass_over_contacts(k_warm_start, 0u);
+        for (uint i = 0u; i < parameters.iterations; ++i)
+            pass_over_contacts(i == 0u ? k_solve : k_solve_again, substep);
+    }
+    if (parameters.relax == 1u) pass_over_contacts(k_relax, 0u);
+
+    if (in_hand != k_none) put_back_impulses(in_hand);
+    for (uint i = 0u; own_bodies >> i != 0u; ++i) {
+        uint body = own_body(i);
+        if (((own_bodies >> i) & 1u) == 1u) velocities[body] = pack(load_velocity(slot_of(body)));
+    }
+}
