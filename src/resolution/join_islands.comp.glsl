@@ -13,7 +13,19 @@ layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) coherent buffer Islands { uint islands[]; };
 layout(std430) buffer Substeps { uint substeps[]; };
 
-#include "resolution/island_roots.glsl"
+// The root of a body's tree. On the way each body is led to its grandparent: an invocation that still sees the parent
+// finds the same root, later.
+uint root_of(uint body)
+{
+    uint parent = islands[body];
+    while (parent != body) {
+        uint grandparent = islands[parent];
+        if (grandparent != parent) islands[body] = grandparent;
+        body = parent;
+        parent = grandparent;
+    }
+    return body;
+}
 
 void join(uint body_a, uint body_b)
 {

@@ -16,7 +16,16 @@ layout(std430) buffer Substeps { uint substeps[]; };
 layout(std430) buffer IslandSizes { uint island_sizes[]; };
 layout(std430) buffer IslandStarts { uint island_starts[]; };
 
-#include "resolution/island_roots.glsl"
+// Changes nothing on its way: others may have named the islands of what it passes.
+uint root_of(uint body)
+{
+    uint parent = islands[body];
+    while (parent != body) {
+        body = parent;
+        parent = islands[body];
+    }
+    return body;
+}
 
 void main()
 {
