@@ -20,8 +20,8 @@ constexpr uint k_first_pairs = 256;
 constexpr uint k_first_colours = 8;
 // The ring keeps this many steps' results; one place stays free so that the newest finished step's are still there.
 constexpr std::size_t k_most_pending = k_ring_size - 1;
-// Where all bodies have the same number of sub-steps, the heaviest load of a large world must not cost too much.
-constexpr uint k_most_substeps_of_all = 32;
+// The heaviest load must not cost too much where a sub-step is launches for each colour.
+constexpr uint k_most_substeps_of_large = 32;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
@@ -154,16 +154,17 @@ StepPlan Simulation::plan_step(const Population& population) const {
     now.relax = passes.relax;
     now.small = population.slots <= k_island_bodies;
     now.one_island = population.some_kinematic;
-    now.in_groups = now.small ? plan.hub_capacity == 0 && placement.resolution->loops_freely() : !now.one_island;
+    const bool one_group_each = now.small && plan.hub_capacity == 0;
+    now.in_groups = (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
     now.bounces = population.some_bounce;
     now.overflow = plan.overflow || settings.solve_order == SolveOrder::Sequential;
     now.least_substeps = passes.least_substeps;
     now.most_substeps = now.small ? passes.most_substeps
-                                  : std::clamp(k_most_substeps_of_all, passes.least_substeps, passes.most_substeps);
-    // Without launches where work groups did all the work; otherwise within what the settings allow.
-    const bool some = !now.solves_groups() || plan.substep_capacity > 0;
-    now.substep_capacity = some ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;
-    if (!some) now.colour_capacity = 0;
+                                  : std::clamp(k_most_substeps_of_large, passes.least_substeps, passes.most_substeps);
+    // None where work groups have lately done all the work.
+    const bool launches = !now.has_groups() || plan.substep_capacity > 0;
+    now.substep_capacity = launches ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;
+    if (!launches) now.colour_capacity = 0;
     return now;
 }
 

@@ -32,8 +32,10 @@ struct StepPlan {
     bool relax = false;
     bool bounces = false; ///< some body has a restitution above 0
 
-    bool solves_groups() const { return in_groups && !small; }
-    bool solves_all_in_groups() const { return in_groups && small; }
+    /// Islands are found, and each has sub-steps of its own.
+    bool has_islands() const { return small || !one_island; }
+    bool has_groups() const { return in_groups && !small; }
+    bool needs_launches() const { return !(in_groups && small); }
 };
 
 /// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.

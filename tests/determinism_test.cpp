@@ -140,6 +140,64 @@ TEST_P(Paths, an_island_may_have_more_manifolds_than_a_group_has_invocations) {
     }
 }
 
+/// More than 1,024 bodies: stacks of three that fall over, a pyramid too large for a work group, and boxes in free
+/// fall.
+std::vector<BodyDefinition> many_islands(float restitution) {
+    std::vector<BodyDefinition> bodies{ground()};
+    for (int i = 0; i < 280; ++i) {
+        const float x = 2.5f * static_cast<float>(i % 20) - 25.0f, z = 2.5f * static_cast<float>(i / 20) + 5.0f;
+        for (int level = 0; level < 3; ++level)
+            bodies.push_back(box_at({x + 0.2f * static_cast<float>(level), 0.5f + static_cast<float>(level), z}));
+        bodies.back().material.restitution = restitution;
+    }
+    for (int row = 0; row < 22; ++row)
+        for (int i = 0; i < 22 - row; ++i)
+            bodies.push_back(box_at({1.01f * static_cast<float>(i) + 0.505f * static_cast<float>(row),
+                                     0.5f + static_cast<float>(row), -5.0f}));
+    for (int i = 0; i < 100; ++i)
+        bodies.push_back(box_at({2.5f * static_cast<float>(i % 10), 50.0f, 2.5f * static_cast<float>(i / 10)}));
+    for (BodyDefinition& body : bodies)
+        if (body.kind == BodyKind::Rigid) body.velocity.linear = {0.3f, -1.0f, 0.1f};
+    return bodies;
+}
+
+TEST_P(Paths, groups_of_islands_give_the_bits_of_many_launches) {
+    Settings settings;
+    settings.substeps = settings.max_substeps = 2;
+    for (const float restitution : {0.0f, 0.5f}) {
+        SCOPED_TRACE(restitution);
+        const std::vector<BodyDefinition> bodies = many_islands(restitution);
+        EngineRun groups(options_on(GetParam()), bodies, settings), launches(options_on(GetParam()), bodies, settings);
+        groups.simulation.reserve_pairs(8192);
+        launches.simulation.reserve_pairs(8192);
+        for (int i = 0; i < 4; ++i) {
+            groups.step_in_groups(restitution > 0.0f || i % 2 == 1);
+            launches.step_in_many_launches();
+            ASSERT_TRUE(groups.motion() == launches.motion()) << "step " << i;
+        }
+        EXPECT_GT(groups.counter(engine::k_counter_launched_colours), 0u) << "the pyramid needs launches";
+        EXPECT_GT(groups.counter(engine::k_counter_manifold_count), 1000u);
+    }
+}
+
+TEST_P(Paths, islands_of_a_large_world_have_sub_steps_of_their_own) {
+    EngineRun run(options_on(GetParam()), many_islands(0.0f));
+    run.simulation.reserve_pairs(8192);
+    run.step();
+    const std::vector<engine::uint> substeps =
+        run.read<engine::uint>(engine::BufferId::Substeps, 1 + 280 * 3 + 253 + 100);
+    const std::vector<engine::uint> islands = run.read<engine::uint>(engine::BufferId::Islands, substeps.size());
+    EXPECT_EQ(islands[0], engine::k_none) << "the ground is no part of an island";
+    for (std::size_t body = 1; body <= 840; ++body) {
+        EXPECT_EQ(islands[body], body - (body - 1) % 3) << "a stack is named by its lowest body";
+        EXPECT_EQ(substeps[body], 32u) << "what has just been put together is on trial";
+    }
+    for (std::size_t body = substeps.size() - 100; body < substeps.size(); ++body) {
+        EXPECT_EQ(islands[body], body);
+        EXPECT_EQ(substeps[body], Settings{}.substeps) << "nothing loads a body in free fall";
+    }
+}
+
 TEST_P(Paths, a_kinematic_body_may_belong_to_several_islands) {
     std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 0.25f, 0.0f}, {9.0f, 0.5f, 2.0f}, BodyKind::Kinematic)};
     bodies.back().velocity = {{0.5f, 0.0f, 0.0f}, {0.0f, 0.3f, 0.0f}};

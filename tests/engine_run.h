@@ -44,11 +44,15 @@ public:
         step_as(plan);
     }
 
-    /// A step as small worlds make it on hardware: one work group for each island, also on a renderer in software.
-    /// There the driver ends loops after 65,535 rounds, so few sub-steps and contacts are all that a test may ask for.
+    /// A step as it is made on hardware, also on a renderer in software: a work group for each island of a small world,
+    /// and for each group of little ones in a large world. There the driver ends loops after 65,535 rounds, so few
+    /// sub-steps and contacts are all that a test may ask for.
     void step_in_groups(bool bounces) {
         engine::StepPlan plan = simulation.plan_step(table.population());
         plan.in_groups = true;
+        plan.substep_capacity = plan.most_substeps;
+        plan.colour_capacity = engine::k_first_hub_colour;
+        plan.overflow = true;
         plan.bounces = bounces;
         step_as(plan);
     }

@@ -6,7 +6,7 @@
 
 namespace talus::engine {
 
-static void group_islands_on_cpu(CpuState& state, const Launch&) {
+static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
     uint& launched_substeps = state.counters[k_counter_launched_substeps];
     for (uint body = 0; body < state.parameters.body_count; ++body) {
         const uint island = state.islands[body];
@@ -14,7 +14,8 @@ static void group_islands_on_cpu(CpuState& state, const Launch&) {
         state.island_places[body] = k_none;
         if (island == k_none) continue;
         const uint place = state.island_starts[island] + state.island_fill[island]++;
-        state.island_groups[body] = island_group(state.island_sizes[island], state.island_starts[island]);
+        if (launch.args[0] == 1)
+            state.island_groups[body] = island_group(state.island_sizes[island], state.island_starts[island]);
         state.island_places[body] = place;
         state.island_bodies[place] = body;
         state.substeps[body] = state.substeps[island];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One group, an invocation for each colour: whether the colours and the sub-steps fit, and the launches of the
-// resolution. args.x: 1 where work groups solve the islands that are not too large for it. args.y: 1 where they solve all
-// that there is, so that colours and sub-steps need no launches; hubs cannot be solved there.
+// resolution. args.x: 1 where what is launched has been counted apart. args.y: 0 where a work group solves each island, so
+// that colours and sub-steps need no launches; hubs cannot be solved there.
 // Reads: ColourOffsets, Counters.
 // Writes: Counters, Dispatches.
 // Needs: a barrier after the sort of the manifolds.
@@ -19,11 +19,11 @@ layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 void main()
 {
     uint colour = gl_LocalInvocationID.x;
-    bool groups = args.x == 1u;
-    bool launches = args.y == 0u;
-    uint colours = counters[groups ? k_counter_launched_colours : k_counter_colour_demand];
-    uint substeps = counters[groups ? k_counter_launched_substeps : k_counter_substep_demand];
-    uint overflow_count = counters[groups ? k_counter_launched_overflow : k_counter_overflow_count];
+    bool measured = args.x == 1u;
+    bool launches = args.y == 1u;
+    uint colours = counters[measured ? k_counter_launched_colours : k_counter_colour_demand];
+    uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];
+    uint overflow_count = counters[measured ? k_counter_launched_overflow : k_counter_overflow_count];
     uint did_not_fit = counters[k_counter_did_not_fit];
     if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;

@@ -7,14 +7,14 @@
 namespace talus::engine {
 
 static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
-    const bool groups = launch.args[0] == 1, launches = launch.args[1] == 0;
+    const bool measured = launch.args[0] == 1, launches = launch.args[1] == 1;
     const Array<uint>& offsets = state.colour_offsets;
     const Array<uint>& counters = state.counters;
     const Parameters& p = state.parameters;
     uint& did_not_fit = counters[k_counter_did_not_fit];
-    const uint colours = counters[groups ? k_counter_launched_colours : k_counter_colour_demand];
-    const uint substeps = counters[groups ? k_counter_launched_substeps : k_counter_substep_demand];
-    const uint overflow_count = counters[groups ? k_counter_launched_overflow : k_counter_overflow_count];
+    const uint colours = counters[measured ? k_counter_launched_colours : k_counter_colour_demand];
+    const uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];
+    const uint overflow_count = counters[measured ? k_counter_launched_overflow : k_counter_overflow_count];
     if (launches && (colours > p.colour_capacity || (overflow_count > 0 && p.overflow_capacity == 0)))
         did_not_fit |= k_fit_colours;
     if (launches && substeps > p.substep_capacity) did_not_fit |= k_fit_substeps;

@@ -13,17 +13,17 @@ namespace talus::engine {
 
 // Islands have the numbers of their body slots, and one more stands for pairs that do not touch.
 static uint manifold_key_bits(const StepPlan& plan) {
-    if (!plan.in_groups) return k_colour_bits;
+    if (plan.small ? !plan.in_groups : !plan.has_islands()) return k_colour_bits;
     return k_colour_bits + std::bit_width(plan.small ? k_island_bodies : count_groups(plan.body_count) + 1);
 }
 
-/// Of a large world, and what of it a work group can solve.
+/// The islands of a large world, and which of them a work group solves.
 static void find_island_groups(Device& device, const StepPlan& plan) {
     device.run({.kernel = begin_islands, .items = plan.body_count});
     device.run({.kernel = join_islands, .slot = k_dispatch_pairs});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_body_count, k_none);
-    device.run({.kernel = group_islands, .items = plan.body_count});
+    device.run({.kernel = group_islands, .items = plan.body_count, .args = {plan.has_groups()}});
     device.run({.kernel = key_manifolds, .slot = k_dispatch_pairs});
 }
 
@@ -32,7 +32,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
     device.run({.kernel = assign_colours, .items = 1});
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
-    if (plan.solves_groups()) find_island_groups(device, plan);
+    if (!plan.small && plan.has_islands()) find_island_groups(device, plan);
     sort_by_key(device, {.keys = BufferId::ManifoldKeys,
                          .values = BufferId::ManifoldOrder,
                          .keys_swap = BufferId::SortedManifoldKeys,
@@ -41,15 +41,14 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                          .count_counter = k_counter_pair_count,
                          .bits = manifold_key_bits(plan),
                          .slot = k_dispatch_pair_tiles});
-    if (!plan.solves_all_in_groups())
+    if (plan.needs_launches())
         find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
-    device.run({.kernel = plan_colours, .items = 1, .args = {plan.solves_groups(), plan.solves_all_in_groups()}});
+    device.run(
+        {.kernel = plan_colours, .items = 1, .args = {!plan.small && plan.has_islands(), plan.needs_launches()}});
 }
 
 void prepare(Device& device, const StepPlan& plan) {
-    device.run({.kernel = prepare_bodies,
-                .slot = k_dispatch_bodies,
-                .args = {plan.small || plan.in_groups, plan.solves_groups()}});
+    device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.has_islands(), plan.has_groups()}});
     device.run({.kernel = prepare_contacts, .slot = k_dispatch_manifolds});
 }
 
@@ -73,7 +72,7 @@ void solve(Device& device, const StepPlan& plan) {
         const Kernel& of_large = plan.bounces ? solve_bouncing_groups : solve_island_groups;
         device.run({.kernel = plan.small ? of_small : of_large, .slot = k_dispatch_islands});
     }
-    if (plan.solves_all_in_groups() || plan.substep_capacity == 0) return;
+    if (!plan.needs_launches() || plan.substep_capacity == 0) return;
     for (uint substep = 0; substep < plan.substep_capacity; ++substep) {
         device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {substep}});
         // Later sub-steps find their warm start body by body (body.shared.glsl).
