@@ -28,8 +28,11 @@ static void sort_along_widest_axis(Device& device, uint body_count) {
 // Only worlds that use the tree have room for it, as much as for bodies.
 static void reserve_tree(Device& device) {
     const auto capacity = static_cast<uint>(device.size(BufferId::Aabbs) / sizeof(Aabb));
-    const std::size_t bytes = (tree_node(0, 0, tree_top(capacity)) + std::size_t{capacity}) * sizeof(Aabb);
-    if (device.size(BufferId::TreeNodes) < bytes) device.grow(BufferId::TreeNodes, bytes);
+    const auto reserve = [&](BufferId buffer, std::size_t bytes) {
+        if (device.size(buffer) < bytes) device.grow(buffer, bytes);
+    };
+    reserve(BufferId::TreeNodes, (tree_node(0, 0, tree_top(capacity)) + std::size_t{capacity}) * sizeof(Aabb));
+    reserve(BufferId::Partners, std::size_t{k_kept_partners} * capacity * sizeof(uint));
 }
 
 static void make_tree(Device& device, uint body_count, uint top) {

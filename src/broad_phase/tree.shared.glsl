@@ -11,6 +11,8 @@ const uint k_tree_bits = 2u;  // four children a node
 const uint k_tree_group = 256u; // nodes that one work group treats
 const uint k_tree_shift = 8u;   // and how much higher the one node is that they come to
 
+const uint k_kept_partners = 8u; // of a body, that the search remembers from counting to writing
+
 // The shift of the root.
 inline uint tree_top(uint body_count)
 {
