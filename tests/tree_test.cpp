@@ -256,6 +256,29 @@ TEST_P(Tree, is_the_same_each_time_and_its_boxes_hold_what_is_below_them) {
     }
 }
 
+TEST_P(Tree, is_that_of_the_cpu_word_by_word) {
+    constexpr uint k_count = 3000; // more than one work group sorts
+    const std::vector<BodyDefinition> bodies = Bodies(9).make(k_count, 100.0f);
+    RoomyRun run = run_of(bodies, 65'536), expected(options_on(DeviceKind::Cpu), bodies, 65'536);
+    run.find_pairs(BroadPhase::Bvh);
+    expected.find_pairs(BroadPhase::Bvh);
+    const uint pair_count = expected.counter(engine::k_counter_pair_count);
+    EXPECT_GT(pair_count, k_count);
+    const uint first_leaf = engine::tree_node(0, 0, engine::tree_top(k_count));
+    const std::tuple<BufferId, std::size_t> made[]{
+        {BufferId::TreeGrids, 8},
+        {BufferId::SortKeys, k_count},
+        {BufferId::SortValues, k_count},
+        {BufferId::TreeNodes, 8 * (std::size_t{first_leaf} + k_count)},
+        {BufferId::Partners, std::size_t{engine::k_kept_partners} * k_count},
+        {BufferId::PairCounts, k_count},
+        {BufferId::Pairs, 2 * std::size_t{pair_count}},
+    };
+    for (const auto& [buffer, words] : made)
+        EXPECT_TRUE(run.read<uint>(buffer, words) == expected.read<uint>(buffer, words))
+            << engine::k_buffers[static_cast<std::size_t>(buffer)].block;
+}
+
 TEST_P(Tree, never_loses_a_pair_in_silence_where_a_driver_ends_long_loops) {
     // A sphere first in the order, and so many static boxes in it that its search takes more than 65,535 rounds.
     constexpr uint k_inside = 49'500;
