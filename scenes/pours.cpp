@@ -111,14 +111,15 @@ Scene make_rubble(const Parameters& parameters) {
     constexpr float k_layers = 2.0f;
     const std::uint32_t boxes = parameters.integer("boxes");
     std::vector<float> edges{k_smallest};
-    while (2.0f * edges.back() <= k_smallest * parameters.number("ratio"))
-        edges.push_back(2.0f * edges.back());
+    while (2.0f * edges.back() <= k_smallest * parameters.number("ratio") && edges.size() < boxes)
+        edges.push_back(2.0f * edges.back()); // at least one box of each
     std::vector<std::uint32_t> counts(edges.size());
     double share = boxes * 0.75 / (1.0 - std::pow(0.25, static_cast<double>(edges.size())));
     std::uint32_t rest = boxes;
     for (std::size_t i = 0; i < edges.size(); ++i, share /= 4.0) {
         const bool last = i + 1 == edges.size();
-        counts[i] = last ? rest : std::min(rest, std::max(1u, static_cast<std::uint32_t>(share)));
+        const auto left = static_cast<std::uint32_t>(edges.size() - 1 - i); // for those larger
+        counts[i] = last ? rest : std::clamp(static_cast<std::uint32_t>(share), 1u, rest - left);
         rest -= counts[i];
     }
 
