@@ -6,6 +6,7 @@ if (!exists("csv")) csv = "broad-phases.csv"
 if (!exists("png")) png = "broad-phases.png"
 
 set datafile separator comma
+set datafile missing NaN # the lines of other scenes do not break a curve
 set terminal pngcairo size 1200,460 font "DejaVu Sans,10"
 set output png
 set logscale xy

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a node of the lowest level of this launch; its group makes the four levels above.
-// Run once for every four levels. args.x: the lowest level's shift; at 0 its nodes, the leaves, are made first, from the
-// bodies in sorted order. args.y: the root's shift.
+// Run once for every four levels. args.x: the lowest level's shift; at 0 its nodes, the leaves, are made first, from
+// the bodies in sorted order. args.y: the root's shift.
 // Reads: Aabbs, SortKeys, SortValues (leaves); TreeNodes, made by the launch before (others).
 // Writes: TreeNodes; TreeGrids (end: where the empty body slots begin).
 // Needs: a barrier after the sort, and between launches.

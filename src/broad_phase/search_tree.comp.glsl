@@ -63,6 +63,7 @@ void main()
     if (args.x == 1u) {
         offset = pair_counts[own];
         place = take_kept(end);
+        if (place >= end) return;
     }
     Aabb box = tree_nodes[tree_node(own, 0u, args.y)];
     uint shift = tree_shift_from(place);
