@@ -24,15 +24,19 @@ layout(std430) writeonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
 
 #include "primitives/group_sort.glsl"
 
+const uint k_spread_groups = k_island_bodies / k_spread_group; // 4
+
 shared SpreadSum sums[k_spread_group];
-shared SpreadSum whole;
+shared SpreadSum group_sums[k_spread_groups];
 shared SweepAxis sweep_axis;
 
-// A tree for each k_spread_group bodies, as in measure_spread; then one after the other, as in choose_axis.
-void measure_spread()
+// A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis; for the first
+// invocation.
+SpreadSum measure_spread()
 {
     uint me = gl_LocalInvocationID.x;
-    if (me == 0u) whole = empty_spread();
+    for (uint group = 0u; me == 0u && group < k_spread_groups; ++group)
+        group_sums[group] = empty_spread();
     for (uint first = 0u; first < parameters.body_count; first += k_spread_group) {
         uint body = first + me;
         if (me < k_spread_group) {
@@ -48,10 +52,11 @@ void measure_spread()
         }
         if (me == 0u) {
             spread_sums[first / k_spread_group] = sums[0];
-            whole = add_spreads(whole, sums[0]);
+            group_sums[first / k_spread_group] = sums[0];
         }
         barrier();
     }
+    return add_spreads(add_spreads(group_sums[0], group_sums[2]), add_spreads(group_sums[1], group_sums[3]));
 }
 
 void main()
@@ -62,8 +67,8 @@ void main()
         aabbs[body] = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
     groupMemoryBarrier();
     barrier();
-    measure_spread();
-    if (me == 0u) sweep_axis = choose_sweep_axis(whole, body_count);
+    SpreadSum sum = measure_spread();
+    if (me == 0u) sweep_axis = choose_sweep_axis(sum, body_count);
     barrier();
 
     uint room = sort_room(body_count);
