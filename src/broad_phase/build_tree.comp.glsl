@@ -13,10 +13,10 @@
 
 layout(local_size_x = 256) in; // k_tree_group
 
-layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) readonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
-layout(std430) buffer TreeNodes { Aabb tree_nodes[]; };
+layout(std430) buffer TreeNodes { AabbCells tree_nodes[]; };
 layout(std430) writeonly buffer TreeGrids { TreeGrid tree_grids[]; };
 
 shared Aabb boxes[k_tree_group];
@@ -27,8 +27,8 @@ Aabb make_leaf(uint place)
     uint key_before = place > 0u ? sort_keys[place - 1u] : 0u;
     if (is_first_from(k_absent_key, key, key_before)) tree_grids[0].end = place;
     Aabb box = empty_box();
-    if (key != k_absent_key) box = aabbs[sort_values[place]];
-    tree_nodes[tree_node(place, 0u, args.y)] = box;
+    if (key != k_absent_key) box = unpack(aabbs[sort_values[place]]);
+    tree_nodes[tree_node(place, 0u, args.y)] = pack(box);
     return box;
 }
 
@@ -42,7 +42,7 @@ void main()
         if (shift == 0u)
             box = make_leaf(node);
         else
-            box = tree_nodes[tree_node(node << shift, shift, args.y)];
+            box = unpack(tree_nodes[tree_node(node << shift, shift, args.y)]);
     }
     boxes[me] = box;
     for (uint size = k_tree_group >> k_tree_bits; size > 0u && shift < args.y; size >>= k_tree_bits) {
@@ -57,6 +57,6 @@ void main()
         node = group_index() * size + me;
         if (me < size) boxes[me] = box;
         if (me < size && node < tree_level_size(parameters.body_count, shift))
-            tree_nodes[tree_node(node << shift, shift, args.y)] = box;
+            tree_nodes[tree_node(node << shift, shift, args.y)] = pack(box);
     }
 }

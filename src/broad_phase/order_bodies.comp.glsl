@@ -15,12 +15,12 @@ layout(local_size_x = 512) in;
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
-layout(std430) coherent buffer Aabbs { Aabb aabbs[]; };
+layout(std430) coherent buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) writeonly buffer SpreadSums { SpreadSum spread_sums[]; };
 layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) writeonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) writeonly buffer SortValues { uint sort_values[]; };
-layout(std430) writeonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
+layout(std430) writeonly buffer SortedAabbs { AabbCells sorted_aabbs[]; };
 
 #include "primitives/group_sort.glsl"
 
@@ -30,7 +30,7 @@ shared SpreadSum sums[k_spread_group];
 shared SpreadSum group_sums[k_spread_groups];
 shared SweepAxis sweep_axis;
 
-// A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis; for the first
+// A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis. For the first
 // invocation.
 SpreadSum measure_spread()
 {
@@ -42,7 +42,7 @@ SpreadSum measure_spread()
         if (me < k_spread_group) {
             sums[me] = empty_spread();
             if (body < parameters.body_count) {
-                Aabb box = aabbs[body];
+                Aabb box = unpack(aabbs[body]);
                 sums[me] = spread_of(box);
             }
         }
@@ -64,7 +64,8 @@ void main()
     uint me = gl_LocalInvocationID.x;
     uint body_count = parameters.body_count;
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
-        aabbs[body] = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
+        aabbs[body] =
+            pack(compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters));
     groupMemoryBarrier();
     barrier();
     SpreadSum sum = measure_spread();
@@ -75,7 +76,7 @@ void main()
     for (uint place = me; place < room; place += gl_WorkGroupSize.x) {
         sorted_keys[place] = 0xffffffffu;
         if (place < body_count) {
-            Aabb box = aabbs[place];
+            Aabb box = unpack(aabbs[place]);
             sorted_keys[place] = sweep_key(box, sweep_axis);
         }
         old_places[place] = place;
@@ -88,8 +89,7 @@ void main()
         uint key_before = place > 0u ? sorted_keys[place - 1u] : 0u;
         if (is_first_from(k_large_key, key, key_before)) sweep_axis.first_large = place;
         if (is_first_from(k_absent_key, key, key_before)) sweep_axis.end = place;
-        Aabb box = aabbs[old_places[place]];
-        sorted_aabbs[place] = box;
+        sorted_aabbs[place] = aabbs[old_places[place]];
         sort_keys[place] = key;
         sort_values[place] = old_places[place];
     }

@@ -15,7 +15,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer TreeNodes { Aabb tree_nodes[]; };
+layout(std430) readonly buffer TreeNodes { AabbCells tree_nodes[]; };
 layout(std430) readonly buffer TreeGrids { TreeGrid tree_grids[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
@@ -65,10 +65,10 @@ void main()
         place = take_kept(end);
         if (place >= end) return;
     }
-    Aabb box = tree_nodes[tree_node(own, 0u, args.y)];
+    Aabb box = unpack(tree_nodes[tree_node(own, 0u, args.y)]);
     uint shift = tree_shift_from(place);
     while (place < end) {
-        bool overlaps = is_candidate(box, tree_nodes[tree_node(place, shift, args.y)]);
+        bool overlaps = is_candidate(box, unpack(tree_nodes[tree_node(place, shift, args.y)]));
         if (overlaps && shift > 0u) {
             shift -= k_tree_bits;
         } else {

@@ -10,7 +10,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) readonly buffer TreeGrids { TreeGrid tree_grids[]; };
 layout(std430) writeonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) writeonly buffer SortValues { uint sort_values[]; };
@@ -19,6 +19,6 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    sort_keys[body] = tree_key(aabbs[body], tree_grids[0]);
+    sort_keys[body] = tree_key(unpack(aabbs[body]), tree_grids[0]);
     sort_values[body] = body;
 }
