@@ -30,8 +30,8 @@ shared SpreadSum sums[k_spread_group];
 shared SpreadSum group_sums[k_spread_groups];
 shared SweepAxis sweep_axis;
 
-// A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis. For the first
-// invocation.
+// A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis. What it
+// returns is right for the first invocation.
 SpreadSum measure_spread()
 {
     uint me = gl_LocalInvocationID.x;
