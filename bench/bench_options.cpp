@@ -82,6 +82,12 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
             .add_option("--solver-curves", options.solver_curves,
                         "Measure drift and time over the passes of the solver instead, and write them as CSV")
             ->type_name("FILE.csv");
+    CLI::Option* broad_phases = command
+                                    .add_option("--broad-phases", options.broad_phases,
+                                                "Measure the broad phases side by side instead, and write it as CSV")
+                                    ->type_name("FILE.csv");
+    for (CLI::Option* other : {repeats, stages, peer, json, against, command.get_option("--broad-phase"), curves})
+        broad_phases->excludes(other);
     for (CLI::Option* other :
          {repeats, stages, peer, json, against, command.get_option("--iterations"), command.get_option("--substeps"),
           command.get_option("--stabilisation"), command.get_option("--solve-order")})

@@ -23,8 +23,10 @@ struct BenchOptions {
     std::string peer; ///< another engine by its name; empty: none
     bool stages = false;
     bool json = false;
-    std::filesystem::path against;       ///< lines of an earlier `--json`; empty: none
-    std::filesystem::path solver_curves; ///< CSV file of the other experiment; empty: the benchmark
+    std::filesystem::path against; ///< lines of an earlier `--json`; empty: none
+    // CSV files of the other experiments; empty: the benchmark
+    std::filesystem::path solver_curves;
+    std::filesystem::path broad_phases;
 };
 
 void add_bench_options(CLI::App& command, BenchOptions& options);

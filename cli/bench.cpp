@@ -12,6 +12,7 @@
 #include "bench/bench_cases.h"
 #include "bench/bench_options.h"
 #include "bench/bench_table.h"
+#include "bench/broad_phases.h"
 #include "bench/comparison.h"
 #include "bench/measurement.h"
 #include "bench/peer.h"
@@ -92,13 +93,22 @@ int run_benchmark(BenchOptions options) {
     return status;
 }
 
-int run_bench(const BenchOptions& options) {
-    if (options.solver_curves.empty()) return run_benchmark(options);
-    const std::uint64_t nonfinite = bench::measure_solver_curves(options, stdout);
-    fmt::print("wrote {}\n", options.solver_curves.string());
+/// An experiment that writes a file. Returns the exit status.
+int run_experiment(std::uint64_t (*measure)(const BenchOptions&, std::FILE*), const BenchOptions& options,
+                   const std::filesystem::path& file) {
+    const std::uint64_t nonfinite = measure(options, stdout);
+    fmt::print("wrote {}\n", file.string());
     if (nonfinite == 0) return k_done;
     fmt::print(stderr, "talus: {} bodies became non-finite and were frozen, in all runs together\n", nonfinite);
     return k_failed_own_check;
+}
+
+int run_bench(const BenchOptions& options) {
+    if (!options.solver_curves.empty())
+        return run_experiment(bench::measure_solver_curves, options, options.solver_curves);
+    if (!options.broad_phases.empty())
+        return run_experiment(bench::measure_broad_phases, options, options.broad_phases);
+    return run_benchmark(options);
 }
 
 } // namespace

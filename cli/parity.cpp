@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/run_options.h"
 #include "parity.h"
 #include "scenes/scene.h"
 
@@ -13,17 +14,13 @@ namespace {
 
 constexpr std::uint32_t k_warm_up_steps = 60;
 
-struct Options {
-    std::string scene;
-    std::uint32_t steps = k_warm_up_steps;
-};
-
-int compare(const Options& options) {
+int compare(const SimulationOptions& options) {
     const scenes::Scene scene = scenes::make_scene(options.scene);
     std::vector<BodyDefinition> definitions;
     for (const scenes::NamedBody& body : scene.bodies)
         definitions.push_back(body.definition);
-    const engine::ParityReport report = engine::compare_devices(definitions, scene.settings, options.steps);
+    const engine::ParityReport report =
+        engine::compare_devices(definitions, settings_of(scene, options), options.steps);
 
     fmt::print("{}, step {}: the same state on the CPU and on the GPU, compared after each stage\n", scene.name,
                options.steps + 1);
@@ -41,7 +38,8 @@ int compare(const Options& options) {
 } // namespace
 
 void add_parity(CLI::App& app, int& status) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SimulationOptions>();
+    options->steps = k_warm_up_steps;
     CLI::App* command =
         app.add_subcommand("parity", "Compare CPU and GPU, stage by stage, in one step from the same state");
     command->add_option("scene", options->scene, "A built-in scene or a file (.gltf, .glb)")
@@ -51,6 +49,7 @@ void add_parity(CLI::App& app, int& status) {
         ->check(CLI::Range(0u, 1'000'000u))
         ->type_name("N")
         ->capture_default_str();
+    add_solver_options(*command, *options);
     command->callback([options, &status] { status = compare(*options); });
 }
 

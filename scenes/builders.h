@@ -35,5 +35,6 @@ Scene make_brick_gables(const Parameters&);
 // pours.cpp: boxes that fall into a basin
 Scene make_pool(const Parameters&);
 Scene make_pile(const Parameters&);
+Scene make_rubble(const Parameters&);
 
 } // namespace talus::scenes

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "scenes/builders.h"
 #include "scenes/camera.h"
@@ -56,6 +57,17 @@ void add_basin(SceneBuilder& builder, float half, float height) {
     builder.add_wall("front wall", {-half, 0.0f, half}, {half, height, outer});
 }
 
+/// Escaped is also what gets as far as the middle of a wall, or over it.
+Scene finish_pour(SceneBuilder& builder, float half, float wall_height) {
+    Bounds bounds = builder.bounds();
+    const float middle = half + 0.5f * k_wall_thickness;
+    bounds.lower.x = bounds.lower.z = -middle;
+    bounds.upper.x = bounds.upper.z = middle;
+    const float outer = half + k_wall_thickness;
+    const Bounds region{{-outer, 0.0f, -outer}, {outer, wall_height, outer}};
+    return builder.finish(bounds, frame(region, {0.3f, 1.1f, 1.0f}));
+}
+
 /// Boxes with edges from `smallest` to `largest` fall into a basin that holds half as much again as they fill at rest,
 /// one on top, and the splash: the higher they fall from, the higher some jump.
 Scene make_pour(std::uint32_t boxes, std::uint64_t seed, float smallest, float largest) {
@@ -80,14 +92,7 @@ Scene make_pour(std::uint32_t boxes, std::uint64_t seed, float smallest, float l
         builder.add_box(centre, size, random.rotation());
     }
 
-    // Escaped is also what gets as far as the middle of a wall, or over it.
-    Bounds bounds = builder.bounds();
-    const float middle = half + 0.5f * k_wall_thickness;
-    bounds.lower.x = bounds.lower.z = -middle;
-    bounds.upper.x = bounds.upper.z = middle;
-    const float outer = half + k_wall_thickness;
-    const Bounds region{{-outer, 0.0f, -outer}, {outer, wall_height, outer}};
-    return builder.finish(bounds, frame(region, {0.3f, 1.1f, 1.0f}));
+    return finish_pour(builder, half, wall_height);
 }
 
 } // namespace
@@ -98,6 +103,55 @@ Scene make_pool(const Parameters& parameters) {
 
 Scene make_pile(const Parameters& parameters) {
     return make_pour(parameters.integer("boxes"), parameters.integer("seed"), 0.5f, 1.5f);
+}
+
+Scene make_rubble(const Parameters& parameters) {
+    // Cubes of edges that double. Half the edge is four times the number, so that each size covers the ground as often.
+    constexpr float k_smallest = 0.125f, k_cell = k_diagonal + 0.1f; // m; edges that a cell is wide
+    constexpr float k_layers = 2.0f;
+    const std::uint32_t boxes = parameters.integer("boxes");
+    std::vector<float> edges{k_smallest};
+    while (2.0f * edges.back() <= k_smallest * parameters.number("ratio") && edges.size() < boxes)
+        edges.push_back(2.0f * edges.back()); // at least one box of each
+    std::vector<std::uint32_t> counts(edges.size());
+    double share = boxes * 0.75 / (1.0 - std::pow(0.25, static_cast<double>(edges.size())));
+    std::uint32_t rest = boxes;
+    for (std::size_t i = 0; i < edges.size(); ++i, share /= 4.0) {
+        const bool last = i + 1 == edges.size();
+        const auto left = static_cast<std::uint32_t>(edges.size() - 1 - i); // for those larger
+        counts[i] = last ? rest : std::clamp(static_cast<std::uint32_t>(share), 1u, rest - left);
+        rest -= counts[i];
+    }
+
+    float area = 0.0f, volume = 0.0f;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const float number = static_cast<float>(counts[i]), cell = k_cell * edges[i];
+        area = std::max(area, std::max(number / k_layers, std::min(number, 1.0f)) * cell * cell);
+        volume += number * edges[i] * edges[i] * edges[i];
+    }
+    const float width = std::ceil(std::sqrt(area) + k_cell * k_smallest), half = 0.5f * width;
+    SceneBuilder builder(half + 20.0f, half + 20.0f, boxes);
+    const float wall_height = std::ceil(2.0f * volume / (k_packing * area) + 4.0f * edges.back());
+    add_basin(builder, half, wall_height);
+
+    Random random(parameters.integer("seed"));
+    float bottom = 0.0f;
+    for (std::size_t i = edges.size(); i-- > 0;) { // the largest fall first
+        const float edge = edges[i], cell = k_cell * edge, jitter = 0.05f * edge;
+        const auto across = static_cast<std::uint32_t>(width / cell);
+        const float start = -0.5f * cell * static_cast<float>(across);
+        for (std::uint32_t k = 0; k < counts[i]; ++k) {
+            const auto along = [&](float from, std::uint32_t place) {
+                return from + cell * (static_cast<float>(place) + 0.5f) + random.between(-jitter, jitter);
+            };
+            const float x = along(start, k % across);
+            const float y = along(bottom, k / (across * across));
+            const float z = along(start, k / across % across);
+            builder.add_box({x, y, z}, {edge, edge, edge}, random.rotation());
+        }
+        bottom += cell * static_cast<float>((counts[i] + across * across - 1) / (across * across));
+    }
+    return finish_pour(builder, half, wall_height);
 }
 
 } // namespace talus::scenes

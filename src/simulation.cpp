@@ -83,6 +83,7 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::Counters, k_counter_words);
     grow_everywhere(BufferId::Dispatches, k_dispatch_count);
     grow_everywhere(BufferId::SweepAxes, 1);
+    grow_everywhere(BufferId::TreeGrids, 1);
     grow_everywhere(BufferId::HubChanges, 1);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
@@ -269,6 +270,10 @@ void Simulation::redo(std::span<const uint> counters) {
     constexpr uint fits = 0;
     device.write(BufferId::Counters, k_counter_did_not_fit * sizeof(uint), std::as_bytes(std::span(&fits, 1)));
     // Where there is no room, the error leaves the world as it was before these steps.
+    if ((reasons & k_fit_search) != 0)
+        throw Error(
+            "a body has so many others around it that this renderer, which ends long loops, does not search the "
+            "tree of the broad phase to the end; the device Cpu does");
     if ((reasons & k_fit_pairs) != 0) make_room_for_pairs(pair_demand);
     if ((reasons & k_fit_hubs) != 0) reserve_hub_manifolds(with_headroom(hub_manifolds));
     for (const Pending& entry : again)

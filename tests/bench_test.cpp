@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -140,6 +141,31 @@ TEST_F(Bench, solver_curves_have_a_point_for_each_number_of_passes) {
     EXPECT_EQ(starts.back(), "\"stack:height=2\",soft,sequential,64");
 }
 
+TEST_F(Bench, broad_phases_stand_side_by_side_and_find_the_same_pairs) {
+    const Ending ending = bench("stack:height=3 rubble:boxes=200 --steps 30 --broad-phases sides.csv");
+    ASSERT_EQ(ending.status, 0) << ending.errors;
+    std::istringstream file(text_of(folder / "sides.csv"));
+    std::string line;
+    ASSERT_TRUE(std::getline(file, line));
+    EXPECT_EQ(line, "scene,device,bodies,broad_phase,steps,pairs,broad_phase_ms,median_ms");
+    const std::regex row(R"re("([^"]+)",cpu,(\d+),(sap|bvh|brute),30,(\d+),([0-9.e-]+),([0-9.e-]+))re");
+    std::vector<std::string> words, pairs;
+    for (std::smatch match; std::getline(file, line);) {
+        ASSERT_TRUE(std::regex_match(line, match, row)) << line;
+        EXPECT_EQ(match[2], words.size() < 3 ? "4" : "205");
+        EXPECT_GT(std::stod(match[5]), 0.0);
+        EXPECT_GT(std::stod(match[6]), 0.0);
+        words.push_back(match[3]);
+        pairs.push_back(match[4]);
+    }
+    EXPECT_EQ(words, (std::vector<std::string>{"sap", "bvh", "brute", "sap", "bvh", "brute"}));
+    ASSERT_EQ(pairs.size(), 6u);
+    EXPECT_EQ(pairs[0], "3");
+    EXPECT_GT(std::stoul(pairs[3]), 200u);
+    for (const std::size_t i : {1u, 2u, 4u, 5u})
+        EXPECT_EQ(pairs[i], pairs[i - i % 3]);
+}
+
 TEST_F(Bench, bad_usage_ends_with_2_and_says_what_is_allowed) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"bench stak", "stack"},
@@ -155,6 +181,11 @@ TEST_F(Bench, bad_usage_ends_with_2_and_says_what_is_allowed) {
         {"bench --solver-curves a.csv --json", "--json"},
         {"bench --solver-curves none/a.csv", "none/a.csv"},
         {"bench stack --solver-curves .", "folder"},
+        {"bench --broad-phases a.csv --json", "--json"},
+        {"bench --broad-phases a.csv --broad-phase bvh", "--broad-phase"},
+        {"bench --broad-phases a.csv --solver-curves b.csv", "--solver-curves"},
+        {"bench --broad-phases a.csv --devices cpu,gpu", "--devices names several"},
+        {"bench --broad-phases none/a.csv", "none/a.csv"},
     };
     for (const auto& [arguments, expected] : cases) {
         const Ending ending = talus(arguments);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sweep and prune finds the pairs that brute force finds, and both find those of an oracle in double precision.
+// Sweep and prune and the tree find the pairs that brute force finds, and all find those of an oracle in double
+// precision.
 #include <algorithm>
 #include <random>
 #include <set>
@@ -82,6 +83,8 @@ void expect_right_pairs(World& world) {
     const Pairs swept = pairs_of_step(world, ids, poses, BroadPhase::SweepAndPrune);
     const Pairs brute = pairs_of_step(world, ids, poses, BroadPhase::Brute);
     EXPECT_TRUE(swept == brute) << swept.size() << " pairs by sweep and prune, " << brute.size() << " by brute force";
+    const Pairs searched = pairs_of_step(world, ids, poses, BroadPhase::Bvh);
+    EXPECT_TRUE(searched == brute) << searched.size() << " pairs by the tree, " << brute.size() << " by brute force";
     EXPECT_TRUE(std::ranges::is_sorted(swept));
     const std::set<std::pair<std::uint32_t, std::uint32_t>> found(swept.begin(), swept.end());
     EXPECT_EQ(found.size(), swept.size()) << "a pair was found twice";

@@ -55,7 +55,7 @@ TEST_F(Program, bad_usage_ends_with_2_and_says_what_is_allowed) {
         {"run stack --dt 0", "positive"},
         {"run stack --dt nan", "positive"},
         {"run stack --device tpu", "auto, gpu, cpu, hybrid"},
-        {"run stack --broad-phase bvh", "sap, brute"},
+        {"run stack --broad-phase tree", "sap, bvh, brute"},
         {"run stack --stabilisation hard", "soft, baumgarte"},
         {"run stack --solve-order any", "coloured, sequential"},
         {"run stack --show wires", "contacts, aabbs, pairs"},

@@ -82,6 +82,13 @@ TEST_P(Determinism, baumgarte_and_brute_force_are_repeatable_too) {
     EXPECT_EQ(hash_of(options_on(GetParam()), c, settings), hash_of(options_on(DeviceKind::Cpu), c, settings));
 }
 
+TEST_P(Determinism, the_broad_phase_does_not_change_the_bits) {
+    Settings settings;
+    settings.broad_phase = BroadPhase::Bvh;
+    for (const Case& c : {Case{"pyramid:base=8", 20}, Case{"pool:boxes=70", 60}, Case{"grid:stacks=230", 5}})
+        EXPECT_EQ(hash_of(options_on(GetParam()), c, settings), hash_on_one_thread(c)) << c.scene;
+}
+
 class Paths : public OnDevice {};
 
 TEST_P(Paths, a_work_group_for_each_island_gives_the_bits_of_many_launches) {
@@ -228,9 +235,9 @@ TEST(Threads, any_number_ends_in_the_same_bits) {
 }
 
 /// What hash_of_scene prints, with so many threads for llvmpipe.
-std::string hash_in_child(const Case& c, int driver_threads) {
+std::string hash_in_child(const Case& c, int driver_threads, const char* broad_phase = "") {
     const std::string command = "LP_NUM_THREADS=" + std::to_string(driver_threads) + " '" TALUS_HASH_PROGRAM "' " +
-                                c.scene + " " + std::to_string(c.steps);
+                                c.scene + " " + std::to_string(c.steps) + " " + broad_phase;
     std::FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) return "no process";
     std::array<char, 64> text{};
@@ -250,6 +257,7 @@ TEST_P(DriverThreads, do_not_change_the_bits) {
                       static_cast<unsigned long long>(hash_on_one_thread(c)));
         EXPECT_EQ(hash_in_child(c, 0), expected.data()) << c.scene;
         EXPECT_EQ(hash_in_child(c, 2), expected.data()) << c.scene;
+        EXPECT_EQ(hash_in_child(c, 2, "bvh"), expected.data()) << c.scene << ", with the tree";
     }
 }
 

@@ -57,6 +57,17 @@ public:
         step_as(plan);
     }
 
+    /// The broad phase alone, of bodies as they are; its pairs in the order in which it finds them. There has to be
+    /// room for them.
+    std::vector<engine::Pair> find_pairs(BroadPhase kind) {
+        engine::StepPlan plan = simulation.plan_step(table.population());
+        plan.broad_phase = kind;
+        engine::Device& device = simulation.state_device();
+        device.set_parameters(engine::make_parameters(settings, plan));
+        engine::run_stage(device, engine::Stage::BroadPhase, plan);
+        return read<engine::Pair>(engine::BufferId::Pairs, counter(engine::k_counter_pair_count));
+    }
+
     template <typename T> std::vector<T> read(engine::BufferId buffer, std::size_t count) const {
         std::vector<T> records(count);
         const engine::ReadRequest request{buffer, count * sizeof(T), records.data()};

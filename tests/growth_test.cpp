@@ -43,6 +43,21 @@ TEST_P(Growth, gives_the_bits_of_a_world_that_had_room) {
     }
 }
 
+TEST_P(Growth, of_bodies_and_pairs_gives_the_same_bits_with_the_tree) {
+    World tiny = world_with(k_tiny), ample = world_with(k_ample);
+    for (World* world : {&tiny, &ample}) {
+        Settings settings = world->settings();
+        settings.broad_phase = BroadPhase::Bvh;
+        world->set_settings(settings);
+        world->add(bodies_of("pool:boxes=80"));
+        world->step(50);
+    }
+    EXPECT_GT(tiny.report().growths, 0u);
+    EXPECT_EQ(ample.report().growths, 0u);
+    EXPECT_GT(ample.report().pairs, 50u);
+    EXPECT_EQ(tiny.state_hash(), ample.state_hash());
+}
+
 TEST_P(Growth, of_colours_gives_the_same_bits_in_a_large_world) {
     // More bodies than one work group solves, so that each colour has a launch of its own.
     World tiny = world_with({1, 16'384, 1}), ample = world_with({2'048, 16'384, 64});

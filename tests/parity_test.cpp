@@ -60,8 +60,10 @@ TEST(ParityOfMixedBodies, holds_for_spheres_spin_bounces_and_the_other_settings)
     expect_parity(engine::compare_devices(bodies, settings, 40));
     settings.stabilisation = Stabilisation::Baumgarte;
     settings.iterations = 8;
-    settings.broad_phase = BroadPhase::Brute;
-    expect_parity(engine::compare_devices(bodies, settings, 40));
+    for (const BroadPhase broad_phase : {BroadPhase::Brute, BroadPhase::Bvh}) {
+        settings.broad_phase = broad_phase;
+        expect_parity(engine::compare_devices(bodies, settings, 40));
+    }
 }
 
 TEST(ParityOfMixedBodies, holds_where_colours_run_out) {

@@ -193,7 +193,9 @@ const std::vector<std::string> k_standing_turned{"card_house",
                                                  "brick_ring:courses=9,radius=20",
                                                  "brick_gables:across=1,rows=2,base=6",
                                                  "brick_gables:across=3,rows=3,base=30"};
-const std::vector<std::string> k_falling{"pool:boxes=1", "pool", "pool:boxes=300,seed=7", "pile:boxes=700"};
+const std::vector<std::string> k_falling{"pool:boxes=1",    "pool",           "pool:boxes=300,seed=7",
+                                         "pile:boxes=700",  "rubble:boxes=1", "rubble:boxes=4,ratio=1000",
+                                         "rubble:boxes=900"};
 
 TEST(scenes, every_listed_scene_builds_and_can_be_given_again_by_its_name) {
     for (const SceneInfo& info : list_scenes()) {
@@ -217,6 +219,7 @@ TEST(scenes, the_defaults_are_those_of_the_documentation) {
                                                     {"columns", 100000},
                                                     {"grid", 20000},
                                                     {"pile", 32000},
+                                                    {"rubble", 32000},
                                                     {"card_house", 40},
                                                     {"dominoes", 100},
                                                     {"slope", 10},
@@ -298,6 +301,21 @@ TEST(scenes, what_is_heavy_lies_on_what_is_light) {
 
 TEST(scenes, the_million_is_the_pile) {
     EXPECT_TRUE(same(make_scene("million:boxes=300,seed=8"), make_scene("pile:boxes=300,seed=8")));
+}
+
+TEST(scenes, rubble_has_boxes_of_every_size_and_most_of_them_small) {
+    std::map<float, std::size_t> count_of;
+    for (const NamedBody& body : make_scene("rubble:boxes=2000,ratio=33").bodies)
+        if (body.definition.kind == BodyKind::Rigid) ++count_of[size_of(body).x];
+    std::vector<float> edges;
+    std::size_t larger = 2000;
+    for (const auto& [edge, count] : count_of) {
+        edges.push_back(edge);
+        EXPECT_LT(count, larger) << edge;
+        larger = count;
+    }
+    EXPECT_EQ(edges, (std::vector<float>{0.125f, 0.25f, 0.5f, 1.0f, 2.0f, 4.0f}));
+    EXPECT_GT(count_of[0.125f], 1400u);
 }
 
 TEST(scenes, what_falls_starts_apart_and_between_the_walls) {

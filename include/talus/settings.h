@@ -28,6 +28,7 @@ enum class GlContext : std::uint32_t {
 
 enum class BroadPhase : std::uint32_t {
     SweepAndPrune, ///< sort along the axis of largest spread, then sweep (thesis, section 3.2)
+    Bvh,           ///< sort along a Hilbert curve, then search a tree of bounding boxes over that order
     Brute,         ///< every pair (thesis, algorithm 1): the oracle
 };
 

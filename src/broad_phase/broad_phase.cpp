@@ -3,35 +3,68 @@
 #include "broad_phase/broad_phase.h"
 
 #include "primitives/primitives.h"
+#include "state/formulas.h"
 #include "step.h"
 
 namespace talus::engine {
 
-static void sort_along_widest_axis(Device& device, uint body_count) {
-    device.run({.kernel = measure_spread, .items = body_count});
-    device.run({.kernel = choose_axis, .items = 1});
-    device.run({.kernel = write_sort_keys, .items = body_count});
+static void sort_bodies(Device& device, uint body_count) {
     sort_by_key(device, {.keys = BufferId::SortKeys,
                          .values = BufferId::SortValues,
                          .keys_swap = BufferId::SortKeysSwap,
                          .values_swap = BufferId::SortValuesSwap,
                          .capacity = body_count,
                          .count_counter = k_counter_body_count});
+}
+
+static void sort_along_widest_axis(Device& device, uint body_count) {
+    device.run({.kernel = measure_spread, .items = body_count});
+    device.run({.kernel = choose_axis, .items = 1});
+    device.run({.kernel = write_sort_keys, .items = body_count});
+    sort_bodies(device, body_count);
     device.run({.kernel = gather_aabbs, .items = body_count});
 }
 
+// Only worlds that use the tree have room for it, as much as for bodies.
+static void reserve_tree(Device& device) {
+    const auto capacity = static_cast<uint>(device.size(BufferId::Aabbs) / sizeof(Aabb));
+    const auto reserve = [&](BufferId buffer, std::size_t bytes) {
+        if (device.size(buffer) < bytes) device.grow(buffer, bytes);
+    };
+    reserve(BufferId::TreeNodes, (tree_node(0, 0, tree_top(capacity)) + std::size_t{capacity}) * sizeof(Aabb));
+    reserve(BufferId::Partners, std::size_t{k_kept_partners} * capacity * sizeof(uint));
+}
+
+static void make_tree(Device& device, uint body_count, uint top) {
+    device.run({.kernel = measure_spread, .items = body_count});
+    device.run({.kernel = choose_grid, .items = 1});
+    device.run({.kernel = write_tree_keys, .items = body_count});
+    sort_bodies(device, body_count);
+    uint shift = 0;
+    do {
+        device.run({.kernel = build_tree, .items = tree_level_size(body_count, shift), .args = {shift, top}});
+        shift += k_tree_shift;
+    } while (shift < top);
+}
+
 // Counting first gives each body's pairs a place that does not depend on who comes first.
-static void find_pairs(Device& device, const Kernel& kernel, uint body_count) {
+static void find_pairs(Device& device, const Kernel& kernel, uint body_count, uint tree_top = 0) {
     constexpr uint count = 0, write = 1;
-    device.run({.kernel = kernel, .items = body_count, .args = {count}});
+    device.run({.kernel = kernel, .items = body_count, .args = {count, tree_top}});
     exclusive_scan(device, BufferId::PairCounts, body_count, k_counter_body_count, k_counter_pair_demand);
-    device.run({.kernel = kernel, .items = body_count, .args = {write}});
+    device.run({.kernel = kernel, .items = body_count, .args = {write, tree_top}});
 }
 
 void broad_phase(Device& device, const StepPlan& plan) {
     if (plan.broad_phase == BroadPhase::Brute) {
         device.run({.kernel = update_aabbs, .items = plan.body_count});
         find_pairs(device, test_all_pairs, plan.body_count);
+    } else if (plan.broad_phase == BroadPhase::Bvh) {
+        const uint top = tree_top(plan.body_count);
+        reserve_tree(device);
+        device.run({.kernel = update_aabbs, .items = plan.body_count});
+        make_tree(device, plan.body_count, top);
+        find_pairs(device, search_tree, plan.body_count, top);
     } else if (plan.small) {
         device.run({.kernel = order_bodies, .items = 1});
         device.run({.kernel = sweep_in_group, .items = 1});

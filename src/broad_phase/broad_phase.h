@@ -19,6 +19,10 @@ extern const Kernel choose_axis;
 extern const Kernel write_sort_keys;
 extern const Kernel sweep_pairs;
 extern const Kernel sweep_in_group;
+extern const Kernel choose_grid;
+extern const Kernel write_tree_keys;
+extern const Kernel build_tree;
+extern const Kernel search_tree;
 extern const Kernel test_all_pairs;
 extern const Kernel plan_pairs;
 

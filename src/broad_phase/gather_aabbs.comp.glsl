@@ -10,10 +10,10 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) readonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
-layout(std430) writeonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
+layout(std430) writeonly buffer SortedAabbs { AabbCells sorted_aabbs[]; };
 layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 
 void main()

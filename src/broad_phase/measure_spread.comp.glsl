@@ -10,7 +10,7 @@
 
 layout(local_size_x = 256) in; // k_spread_group
 
-layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) writeonly buffer SpreadSums { SpreadSum spread_sums[]; };
 
 shared SpreadSum sums[k_spread_group];
@@ -20,7 +20,7 @@ void main()
     uint me = gl_LocalInvocationID.x;
     uint body = item_index();
     if (body < parameters.body_count)
-        sums[me] = spread_of(aabbs[body]);
+        sums[me] = spread_of(unpack(aabbs[body]));
     else
         sums[me] = empty_spread();
     for (uint half_size = k_spread_group / 2u; half_size > 0u; half_size /= 2u) {

@@ -15,30 +15,34 @@ layout(local_size_x = 512) in;
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
-layout(std430) coherent buffer Aabbs { Aabb aabbs[]; };
+layout(std430) coherent buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) writeonly buffer SpreadSums { SpreadSum spread_sums[]; };
 layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) writeonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) writeonly buffer SortValues { uint sort_values[]; };
-layout(std430) writeonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
+layout(std430) writeonly buffer SortedAabbs { AabbCells sorted_aabbs[]; };
 
 #include "primitives/group_sort.glsl"
 
+const uint k_spread_groups = k_island_bodies / k_spread_group; // 4
+
 shared SpreadSum sums[k_spread_group];
-shared SpreadSum whole;
+shared SpreadSum group_sums[k_spread_groups];
 shared SweepAxis sweep_axis;
 
-// A tree for each k_spread_group bodies, as in measure_spread; then one after the other, as in choose_axis.
-void measure_spread()
+// A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis. What it
+// returns is right for the first invocation.
+SpreadSum measure_spread()
 {
     uint me = gl_LocalInvocationID.x;
-    if (me == 0u) whole = empty_spread();
+    for (uint group = 0u; me == 0u && group < k_spread_groups; ++group)
+        group_sums[group] = empty_spread();
     for (uint first = 0u; first < parameters.body_count; first += k_spread_group) {
         uint body = first + me;
         if (me < k_spread_group) {
             sums[me] = empty_spread();
             if (body < parameters.body_count) {
-                Aabb box = aabbs[body];
+                Aabb box = unpack(aabbs[body]);
                 sums[me] = spread_of(box);
             }
         }
@@ -48,10 +52,11 @@ void measure_spread()
         }
         if (me == 0u) {
             spread_sums[first / k_spread_group] = sums[0];
-            whole = add_spreads(whole, sums[0]);
+            group_sums[first / k_spread_group] = sums[0];
         }
         barrier();
     }
+    return add_spreads(add_spreads(group_sums[0], group_sums[2]), add_spreads(group_sums[1], group_sums[3]));
 }
 
 void main()
@@ -59,18 +64,19 @@ void main()
     uint me = gl_LocalInvocationID.x;
     uint body_count = parameters.body_count;
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
-        aabbs[body] = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
+        aabbs[body] =
+            pack(compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters));
     groupMemoryBarrier();
     barrier();
-    measure_spread();
-    if (me == 0u) sweep_axis = choose_sweep_axis(whole, body_count);
+    SpreadSum sum = measure_spread();
+    if (me == 0u) sweep_axis = choose_sweep_axis(sum, body_count);
     barrier();
 
     uint room = sort_room(body_count);
     for (uint place = me; place < room; place += gl_WorkGroupSize.x) {
         sorted_keys[place] = 0xffffffffu;
         if (place < body_count) {
-            Aabb box = aabbs[place];
+            Aabb box = unpack(aabbs[place]);
             sorted_keys[place] = sweep_key(box, sweep_axis);
         }
         old_places[place] = place;
@@ -83,8 +89,7 @@ void main()
         uint key_before = place > 0u ? sorted_keys[place - 1u] : 0u;
         if (is_first_from(k_large_key, key, key_before)) sweep_axis.first_large = place;
         if (is_first_from(k_absent_key, key, key_before)) sweep_axis.end = place;
-        Aabb box = aabbs[old_places[place]];
-        sorted_aabbs[place] = box;
+        sorted_aabbs[place] = aabbs[old_places[place]];
         sort_keys[place] = key;
         sort_values[place] = old_places[place];
     }

@@ -12,7 +12,7 @@
 
 layout(local_size_x = 1024) in; // k_island_bodies
 
-layout(std430) readonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
+layout(std430) readonly buffer SortedAabbs { AabbCells sorted_aabbs[]; };
 layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
 layout(std430) writeonly buffer PairCounts { uint pair_counts[]; };
@@ -94,7 +94,7 @@ void main()
     barrier();
     Aabb box;
     if (is_body) {
-        box = sorted_aabbs[me];
+        box = unpack(sorted_aabbs[me]);
         share_box(me, box);
     }
     barrier();

@@ -13,7 +13,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer SortedAabbs { Aabb sorted_aabbs[]; };
+layout(std430) readonly buffer SortedAabbs { AabbCells sorted_aabbs[]; };
 layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
@@ -45,7 +45,7 @@ void sweep(uint first, uint end, uint axis, float limit, bool takes_part)
     for (uint start = first; start < end; start += gl_WorkGroupSize.x) {
         barrier(); // the last tile has been read
         if (me == 0u) goes_on = false;
-        if (start + me < end) tile[me] = sorted_aabbs[start + me];
+        if (start + me < end) tile[me] = unpack(sorted_aabbs[start + me]);
         barrier();
         uint tile_end = min(gl_WorkGroupSize.x, end - start);
         uint i = place >= start ? place - start + 1u : 0u;
@@ -71,7 +71,7 @@ void main()
     if (is_body) {
         offset = args.x == 1u ? pair_counts[place] : 0u;
         body = sort_values[place];
-        box = sorted_aabbs[place];
+        box = unpack(sorted_aabbs[place]);
     }
     float limit = component(box.upper, sweep_axis.axis);
     sweep(group_first + 1u, sweep_axis.first_large, sweep_axis.axis, limit, is_body);

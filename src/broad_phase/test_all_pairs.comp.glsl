@@ -10,7 +10,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
 layout(std430) writeonly buffer Pairs { Pair pairs[]; };
 
@@ -21,9 +21,9 @@ void main()
     bool writing = args.x == 1u;
     uint offset = writing ? pair_counts[body] : 0u;
     uint found = 0u;
-    Aabb box = aabbs[body];
+    Aabb box = unpack(aabbs[body]);
     for (uint other = body + 1u; other < parameters.body_count; other += 1u) {
-        if (is_candidate(box, aabbs[other])) {
+        if (is_candidate(box, unpack(aabbs[other]))) {
             if (writing && offset + found < parameters.pair_capacity) pairs[offset + found] = make_pair(body, other);
             found += 1u;
         }

@@ -12,11 +12,12 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
-layout(std430) writeonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) writeonly buffer Aabbs { AabbCells aabbs[]; };
 
 void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    aabbs[body] = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
+    aabbs[body] =
+        pack(compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters));
 }

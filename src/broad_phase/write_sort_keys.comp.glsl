@@ -9,7 +9,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Aabbs { Aabb aabbs[]; };
+layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) writeonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) writeonly buffer SortValues { uint sort_values[]; };
@@ -18,6 +18,6 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    sort_keys[body] = sweep_key(aabbs[body], sweep_axes[0]);
+    sort_keys[body] = sweep_key(unpack(aabbs[body]), sweep_axes[0]);
     sort_values[body] = body;
 }

@@ -35,6 +35,9 @@ namespace talus::engine {
     X(SortValuesSwap, sort_values_swap, uint, "u", Scratch)                                                            \
     X(DigitCounts, digit_counts, uint, "u", Scratch)                                                                   \
     X(SortedAabbs, sorted_aabbs, Aabb, "fffffffu", Result)                                                             \
+    X(TreeGrids, tree_grids, TreeGrid, "fffffuuu", Result)                                                             \
+    X(TreeNodes, tree_nodes, Aabb, "fffffffu", Result)                                                                 \
+    X(Partners, partners, uint, "u", Result)                                                                           \
     X(PairCounts, pair_counts, uint, "u", Result)                                                                      \
     X(ScanSums, scan_sums, uint, "u", Scratch)                                                                         \
     X(Pairs, pairs, Pair, "uu", Result)                                                                                \

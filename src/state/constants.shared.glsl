@@ -67,6 +67,7 @@ const uint k_fit_pairs = 1u;
 const uint k_fit_colours = 2u;
 const uint k_fit_substeps = 4u;
 const uint k_fit_hubs = 8u;
+const uint k_fit_search = 16u; // no room is missing: a driver ended the search for pairs
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.

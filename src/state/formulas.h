@@ -13,6 +13,9 @@ namespace talus::engine {
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
 
+#include "broad_phase/curve.shared.glsl"
+#include "broad_phase/tree.shared.glsl"
+
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
 

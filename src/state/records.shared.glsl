@@ -190,6 +190,16 @@ struct SweepAxis {
     uint end;           // place of the first empty body slot
 };
 
+// 32 bytes: what the order of the tree needs to know.
+struct TreeGrid {
+    vec3 lower;         // m, corner of the first cell
+    float inverse_cell; // 1/m
+    float small_extent; // m: longer bodies have parts of the order of their own
+    uint end;           // place of the first empty body slot
+    uint reserved_1;
+    uint reserved_2;
+};
+
 // The step's constants, 112 bytes: a uniform block in GLSL.
 struct Parameters {
     vec3 gravity; // m/s^2

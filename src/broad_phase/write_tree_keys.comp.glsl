@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body slot: the key that sorts it into the order of the tree.
+// Reads: Aabbs, TreeGrids.
+// Writes: SortKeys, SortValues (the body).
+// Needs: a barrier after choose_grid.
+// Overflow: none.
+#include "state/math.shared.glsl"
+#include "broad_phase/sweep_axis.shared.glsl"
+#include "broad_phase/curve.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
+layout(std430) readonly buffer TreeGrids { TreeGrid tree_grids[]; };
+layout(std430) writeonly buffer SortKeys { uint sort_keys[]; };
+layout(std430) writeonly buffer SortValues { uint sort_values[]; };
+
+void main()
+{
+    uint body = item_index();
+    if (body >= parameters.body_count) return;
+    sort_keys[body] = tree_key(unpack(aabbs[body]), tree_grids[0]);
+    sort_values[body] = body;
+}
