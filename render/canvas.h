@@ -24,11 +24,15 @@ public:
     void begin();
     /// Sends what was drawn on its way. There must be room in the ring.
     void send();
+    /// Puts what was drawn into the lower left corner of another framebuffer, such as a window's, pixel by pixel.
+    void show(GLuint framebuffer, std::uint32_t columns, std::uint32_t rows);
     /// The oldest picture that was sent; waits for it. There must be one.
     Picture receive();
     std::size_t pending() const noexcept { return sent - received; }
 
 private:
+    void resolve();
+
     struct ReadBack {
         engine::GlBuffer buffer;
         engine::GlFence fence;
