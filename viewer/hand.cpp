@@ -78,7 +78,9 @@ bool Hand::apply(World& world) {
     if (strength > k_largest_pull * mass) force *= k_largest_pull * mass / strength;
     force -= world.gravity_scale(grip->body) * mass * to_glm(world.settings().gravity); // what is held weighs nothing
     world.add_force(grip->body, from_glm(force), from_glm(point));
-    world.add_torque(grip->body, from_glm(-k_angular_damping * (inertia * spin)));
+    // Of its swinging about the grip.
+    const glm::mat3 swing_inertia = inertia - mass * r * r;
+    world.add_torque(grip->body, from_glm(-k_angular_damping * (swing_inertia * spin)));
     return true;
 }
 
