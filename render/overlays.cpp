@@ -16,7 +16,7 @@ std::span<const OverlayInfo> list_overlays() {
         {"islands", &Overlays::islands, "bodies that contacts join, in one colour"},
         {"velocities", &Overlays::velocities, "the way of a quarter of a second: blue; axes of rotation: violet"},
         {"wireframe", &Overlays::wireframe, "edges alone"},
-        {"transparent", &Overlays::transparent, "static bodies: transparent"},
+        {"transparent", &Overlays::transparent, "static bodies let what is behind them through"},
     }};
     return overlays;
 }

@@ -294,6 +294,35 @@ TEST(History, keeps_within_its_memory) {
     EXPECT_EQ(history.first_step(world), 50u - history.size());
 }
 
+TEST(History, makes_steps_between_two_snapshots_again) {
+    World world = make_world();
+    for (const scenes::NamedBody& body : scenes::make_scene("pool:boxes=20").bodies)
+        world.add(body.definition);
+    History history(std::size_t{256} << 20, 1e-9); // as if taking one took very long
+    std::vector<std::uint64_t> hashes;
+    for (int i = 0; i < 100; ++i) {
+        history.before_step(world);
+        hashes.push_back(world.state_hash());
+        world.step();
+    }
+    EXPECT_EQ(history.size(), 1u);
+    for (std::size_t step = 100; step-- > 40;) {
+        ASSERT_TRUE(history.step_back(world));
+        ASSERT_EQ(world.step_count(), step);
+        EXPECT_EQ(world.state_hash(), hashes[step]) << step;
+    }
+    EXPECT_GT(history.size(), 1u) << "nothing is left on the way";
+    // A change by hand is the end of what was ahead, and a place to go back to.
+    world.set_velocity(world.bodies()[10], {{0.0f, 3.0f, 0.0f}, {}});
+    history.note_change();
+    history.before_step(world);
+    world.step();
+    const std::uint64_t thrown = world.state_hash();
+    world.step();
+    history.step_back(world);
+    EXPECT_EQ(world.state_hash(), thrown);
+}
+
 TEST(Session, goes_on_from_a_file) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "talus_session.snapshot";
     Session session = make_session("stack:height=4");

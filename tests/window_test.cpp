@@ -68,19 +68,17 @@ protected:
     }
 
     /// On the CPU, with its first step still to come.
-    XWindow& open(const std::string& scene, std::vector<std::string> more = {"--paused"}, int dots_per_inch = 96) {
-        std::vector<std::string> command{TALUS_PROGRAM_FILE,
-                                         "view",
-                                         scene,
-                                         "--device",
-                                         "cpu",
-                                         "--threads",
-                                         "1",
-                                         "--width",
-                                         std::to_string(k_width),
-                                         "--height",
-                                         std::to_string(k_height)};
-        command.insert(command.end(), more.begin(), more.end());
+    XWindow& open(const std::string& scene, int width = k_width, int height = k_height, int dots_per_inch = 96) {
+        const std::vector<std::string> command{TALUS_PROGRAM_FILE,
+                                               "view",
+                                               scene,
+                                               "--paused",
+                                               "--device=cpu",
+                                               "--threads=1",
+                                               "--width",
+                                               std::to_string(width),
+                                               "--height",
+                                               std::to_string(height)};
         opened.emplace(command, folder, dots_per_inch);
         return *opened;
     }
@@ -177,16 +175,16 @@ TEST_F(WindowOnScreen, drags_a_body_with_the_mouse) {
     window.press("space");
     ASSERT_TRUE(reaches_step(5));
     for (int i = 1; i <= 10; ++i)
-        window.move_mouse(k_middle_x, k_middle_y - 15 * i);
+        window.move_mouse(k_middle_x, k_middle_y - 20 * i);
     ASSERT_TRUE(reaches_step(step_in(window.title()) + 90));
     look("dragged");
     const World held = saved_world();
     const float height = held.pose(find(held, BodyKind::Rigid)).position.y;
-    EXPECT_GT(height, 0.9f); // it lay at 0.5 m
+    EXPECT_GT(height, 0.8f); // it lay at 0.5 m
     window.hold_button(1, false);
     ASSERT_TRUE(reaches_step(step_in(window.title()) + 90));
     const World fallen = saved_world();
-    EXPECT_LT(fallen.pose(find(fallen, BodyKind::Rigid)).position.y, height - 0.3f);
+    EXPECT_LT(fallen.pose(find(fallen, BodyKind::Rigid)).position.y, height - 0.2f);
 }
 
 TEST_F(WindowOnScreen, shoots_drops_removes_and_drives) {
@@ -322,7 +320,10 @@ TEST_F(WindowOnScreen, turns_and_moves_the_camera) {
     render::Picture before = look("camera");
     const auto changes = [&](const std::string& name) {
         render::Picture now = look("camera " + name);
-        const bool changed = now.rgb != before.rgb;
+        bool changed = false;
+        for (int y = 0; y < k_height; ++y)
+            for (int x = k_panel; x < k_width; ++x)
+                changed |= colour_at(now, x, y).green != colour_at(before, x, y).green;
         before = std::move(now);
         return changed;
     };
@@ -354,6 +355,8 @@ TEST_F(WindowOnScreen, saves_pictures_and_videos) {
     window.press("F3");
     window.press("space");
     ASSERT_TRUE(reaches_step(20)); // ten pictures: each is shown for 1/30 s
+    window.press("space");
+    ASSERT_TRUE(shows("paused"));
     window.press("F3");
     ASSERT_TRUE(appears("stack-1.mp4"));
     const Ending probe = shell("ffprobe -v error -count_frames -select_streams v -show_entries "
@@ -364,11 +367,11 @@ TEST_F(WindowOnScreen, saves_pictures_and_videos) {
     EXPECT_EQ(width, k_width - k_panel);
     EXPECT_EQ(height, k_height);
     EXPECT_GE(frames, 8);
-    EXPECT_NEAR(2.0 * frames, static_cast<double>(step_in(window.title())), 8.0);
+    EXPECT_NEAR(2.0 * frames, static_cast<double>(step_in(window.title())), 3.0);
 }
 
 TEST_F(WindowOnScreen, is_larger_on_a_hidpi_screen) {
-    open("stack:height=2", {"--paused", "--width", "600", "--height", "400"}, 192);
+    open("stack:height=2", 600, 400, 192);
     ASSERT_TRUE(shows("step 0 "));
     const render::Picture picture = look("hidpi");
     EXPECT_EQ(picture.width, 1200u);

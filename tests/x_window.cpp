@@ -86,8 +86,7 @@ void XWindow::Impl::start_screen(const std::filesystem::path& folder, int dots_p
     // The server takes a free number and writes it to a file descriptor of ours.
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");
-    server = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x900x24", "-dpi",
-                    std::to_string(dots_per_inch), "-nolisten", "tcp"},
+    server = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x900x24", "-nolisten", "tcp"},
                    folder, "", folder / "Xvfb.log");
     close(ends[1]);
     std::string number(16, '\0');
@@ -98,6 +97,11 @@ void XWindow::Impl::start_screen(const std::filesystem::path& folder, int dots_p
     display_name.append(number, 0, number.find('\n'));
     display = XOpenDisplay(display_name.c_str());
     if (display == nullptr) throw std::runtime_error("the screen " + display_name + " cannot be opened");
+    // As desktops tell programs how large letters should be.
+    const std::string resources = "Xft.dpi:\t" + std::to_string(dots_per_inch) + "\n";
+    XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(resources.data()), static_cast<int>(resources.size()));
+    XSync(display, False);
 }
 
 bool XWindow::Impl::find_window() {
@@ -123,8 +127,14 @@ XWindow::XWindow(const std::vector<std::string>& command, const std::filesystem:
     impl_->start_screen(folder.parent_path(), dots_per_inch);
     const std::filesystem::path messages = folder.parent_path() / "program.log";
     impl_->program = start(command, folder, impl_->display_name, messages);
-    if (!wait_until(60.0, [&] { return impl_->find_window(); }))
-        throw std::runtime_error("no window appears; the program said: " + text_of(messages));
+    int status = 0;
+    bool ended = false;
+    const bool opened = wait_until(60.0, [&] {
+        ended = waitpid(impl_->program, &status, WNOHANG) == impl_->program;
+        return ended || impl_->find_window();
+    });
+    if (ended) impl_->program = 0;
+    if (!opened || ended) throw std::runtime_error("no window appears; the program said: " + text_of(messages));
     // There is no window manager here that would do it.
     XSetInputFocus(impl_->display, impl_->window, RevertToParent, CurrentTime);
     XSync(impl_->display, False);
@@ -171,8 +181,11 @@ void XWindow::press(const std::string& keys) const {
         hold(keys.substr(0, plus), false);
         return;
     }
-    hold(keys, true);
-    hold(keys, false);
+    // GLFW takes two presses of a key within a millisecond for one.
+    for (const bool down : {true, false}) {
+        hold(keys, down);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
 }
 
 void XWindow::move_mouse(int x, int y) const {

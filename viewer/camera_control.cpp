@@ -18,11 +18,12 @@ constexpr float k_nearest = 0.01f, k_farthest = 1.0e5f; // m
 
 } // namespace
 
-void CameraControl::look_through(const scenes::Camera& camera) {
+void CameraControl::look_through(const scenes::Camera& camera, float aspect) {
     target = {camera.target.x, camera.target.y, camera.target.z};
     const glm::vec3 way = target - glm::vec3(camera.eye.x, camera.eye.y, camera.eye.z);
-    distance = std::clamp(glm::length(way), k_nearest, k_farthest);
-    const glm::vec3 direction = way / distance;
+    const glm::vec3 direction = glm::normalize(way);
+    const float back = std::max(1.0f, 16.0f / 9.0f / aspect);
+    distance = std::clamp(back * glm::length(way), k_nearest, k_farthest);
     pitch = std::asin(std::clamp(direction.y, -1.0f, 1.0f));
     pitch = std::clamp(pitch, -k_steepest, k_steepest);
     yaw = std::atan2(direction.x, -direction.z);

@@ -13,8 +13,9 @@ enum class CameraMode { Orbit, Fly };
 
 class CameraControl {
 public:
-    /// Takes over a camera's place and direction.
-    void look_through(const scenes::Camera&);
+    /// Takes over a camera's direction and, for a window of 16:9 or wider, its place; from farther away in a narrower
+    /// one, which so shows as much.
+    void look_through(const scenes::Camera&, float aspect = 16.0f / 9.0f);
     scenes::Camera camera() const;
 
     CameraMode mode = CameraMode::Orbit;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/display.h"
 
+#include <array>
+
 #include "render/view.h"
 
 namespace talus::viewer {
@@ -39,6 +41,8 @@ void Display::draw(const Session& session, const scenes::Camera& camera, const R
     canvas->begin();
     painter.paint(render::make_view(camera, canvas_width, canvas_height, bodies->typical_size()), drawing);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    constexpr std::array<float, 4> k_dark{0.09f, 0.10f, 0.12f, 1.0f}; // behind the panels
+    glClearNamedFramebufferfv(0, GL_COLOR, 0, k_dark.data());
     canvas->show(0, region.left, region.width, region.height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }

@@ -13,8 +13,10 @@ namespace talus::viewer {
 
 class History {
 public:
-    /// Of memory that the snapshots may take in all; there are always two.
-    explicit History(std::size_t most_bytes = std::size_t{256} << 20) : budget(most_bytes) {}
+    /// `most_bytes`: of memory, for all snapshots together; there are always two. `time_share`: of the time that the
+    /// steps stand for, which may go into taking snapshots.
+    explicit History(std::size_t most_bytes = std::size_t{256} << 20, double time_share = 0.05)
+        : budget(most_bytes), share(time_share) {}
 
     /// To be called before each step, and never within one.
     void before_step(const World&);
@@ -33,11 +35,14 @@ public:
     }
 
 private:
-    std::uint64_t interval() const;
+    void take(const World&);
+    void forget_from(std::uint64_t step);
 
     std::deque<Snapshot> ring; ///< in the order of their steps
     std::size_t budget;
+    double share;
     std::size_t total = 0;
+    std::uint64_t interval = 1; ///< steps from one snapshot to the next
     bool changed = true;
 };
 

@@ -11,6 +11,7 @@ namespace talus::viewer {
 namespace {
 
 constexpr std::chrono::milliseconds k_energy_interval{100};
+constexpr int k_rest = 30; // times as long as it took until energy is measured again
 
 } // namespace
 
@@ -63,9 +64,10 @@ void Measurements::update(const World& world) {
     memory = world.memory();
 
     const auto now = std::chrono::steady_clock::now();
-    if (now - energy_time < k_energy_interval) return;
-    energy_time = now;
+    if (now < next_energy) return;
     const Energy energy = energy_of(world);
+    const auto end = std::chrono::steady_clock::now();
+    next_energy = end + std::max<std::chrono::nanoseconds>(k_energy_interval, k_rest * (end - now));
     kinetic.add(static_cast<float>(energy.kinetic));
     total.add(static_cast<float>(energy.kinetic + energy.potential));
 }

@@ -43,7 +43,7 @@ public:
 
 private:
     std::uint64_t step = 0;
-    std::chrono::steady_clock::time_point energy_time;
+    std::chrono::steady_clock::time_point next_energy;
 };
 
 } // namespace talus::viewer

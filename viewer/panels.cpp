@@ -25,9 +25,9 @@ void show_time(Workbench& bench) {
     ImGui::SameLine();
     if (ImGui::Button("Reset")) bench.reset();
     auto speed = static_cast<float>(session.speed);
-    if (ImGui::SliderFloat("speed", &speed, 1.0f / 64.0f, 64.0f, "%.3g", ImGuiSliderFlags_Logarithmic))
+    if (ImGui::SliderFloat("speed", &speed, 1.0f / 64.0f, 64.0f, "× %.3g", ImGuiSliderFlags_Logarithmic))
         session.speed = speed;
-    ImGui::Text("step %llu, %.2f s; plays at %.2f", static_cast<unsigned long long>(session.world().step_count()),
+    ImGui::Text("step %llu, %.2f s, %.2f × real time", static_cast<unsigned long long>(session.world().step_count()),
                 static_cast<double>(session.world().step_count()) * session.world().settings().dt,
                 session.running ? session.achieved_speed() : 0.0);
     ImGui::Checkbox("keep snapshots to step back to", &session.keep_past);

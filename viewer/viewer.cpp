@@ -40,6 +40,9 @@ public:
                 [simulation = options.simulation](const scenes::Scene& scene) {
                     return cli::settings_of(scene, simulation);
                 }) {
+        const Region region = picture();
+        bench.aspect = static_cast<float>(region.width) / static_cast<float>(std::max(region.height, 1u));
+        bench.look_from_start();
         bench.display.overlays = options.overlays;
         bench.session.running = !options.paused;
         for (const std::string& warning : bench.session.scene().warnings)
@@ -172,6 +175,7 @@ void Viewer::frame(std::chrono::duration<double> elapsed) {
 
     const Region region = picture();
     if (region.width == 0 || region.height == 0) return;
+    bench.aspect = static_cast<float>(region.width) / static_cast<float>(region.height);
     std::vector<render::Line> lines;
     if (const auto pull = bench.hand.pull(bench.session.world()))
         render::add_arrow(lines, pull->first, pull->second, render::pack_colour({1.0f, 0.9f, 0.2f}));

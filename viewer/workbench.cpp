@@ -190,7 +190,7 @@ void Workbench::look_at(const Ray& ray) {
 }
 
 void Workbench::look_from_start() {
-    camera.look_through(session.scene().camera);
+    camera.look_through(session.scene().camera, aspect);
 }
 
 // ---- files ----

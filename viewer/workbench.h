@@ -22,6 +22,7 @@ public:
     CameraControl camera;
     Hand hand;
     Projectile projectile;
+    float aspect = 16.0f / 9.0f; ///< of the picture, width over height
     bool show_panels = true;
     bool show_help = false;
 
@@ -55,7 +56,7 @@ public:
     void drive(glm::vec3 direction);
     void remove_body(const Ray&);
     void look_at(const Ray&);
-    void look_from_start();
+    void look_from_start(); ///< as the scene has it
 
     // ---- files, in the current folder ----
     void save_picture();
