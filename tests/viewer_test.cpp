@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The window's parts that need no window: camera, ray cast, spring, history, session.
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -8,6 +11,7 @@
 
 #include "viewer/camera_control.h"
 #include "viewer/hand.h"
+#include "viewer/keys.h"
 #include "viewer/measurements.h"
 #include "viewer/session.h"
 
@@ -361,6 +365,29 @@ TEST(Session, plays_at_the_speed_that_is_asked_for) {
     session.running = false;
     session.advance(std::chrono::duration<double>(1.0));
     EXPECT_NEAR(static_cast<double>(session.world().step_count()), 60.0, 1.0);
+}
+
+TEST(Keys, all_are_in_the_documents) {
+    std::ifstream file(TALUS_SOURCE_FOLDER "/docs/viewer.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const KeyBinding& key : list_keys()) {
+        const std::string row = "| `" + std::string(key.name) + "` | " + key.meaning + " |";
+        EXPECT_NE(text.find(row), std::string::npos) << row;
+    }
+    for (const Gesture& gesture : list_gestures()) {
+        const std::string row = "| " + std::string(gesture.name) + " | " + gesture.meaning + " |";
+        EXPECT_NE(text.find(row), std::string::npos) << row;
+    }
+    for (const render::OverlayInfo& overlay : render::list_overlays()) {
+        const std::string row = "| `" + std::string(overlay.name) + "` | " + overlay.meaning + " |";
+        EXPECT_NE(text.find(row), std::string::npos) << row;
+    }
+}
+
+TEST(Keys, none_has_two_meanings) {
+    std::set<std::pair<int, bool>> seen;
+    for (const KeyBinding& key : list_keys())
+        EXPECT_TRUE(seen.emplace(key.key, key.control).second) << key.name;
 }
 
 TEST(Measurements, energy_has_its_closed_form) {

@@ -262,12 +262,22 @@ TEST_F(WindowOnScreen, opens_scenes_and_files) {
     EXPECT_TRUE(shows("tower.gltf")) << window.title();
     EXPECT_TRUE(shows("1 bodies"));
 
-    // What cannot be opened is said, and the scene stays.
+    // What cannot be opened is said, and the scene stays as it is.
     std::ofstream(folder / "broken.gltf") << "{";
     window.drop_file(folder / "broken.gltf");
     const render::Picture told = look("broken file");
     EXPECT_LT(colour_at(told, k_width - 40, k_height - 25).red, 80); // the message's dark ground
     EXPECT_NE(window.title().find("tower.gltf"), std::string::npos);
+
+    // By the panel "Scenes", its search, and Enter. Letters that are typed there are no commands.
+    window.click(100, 150 + 16); // the file's name above takes two lines
+    window.click(100, 175 + 16);
+    for (const char* letter : {"d", "o", "m", "i", "n"})
+        window.press(letter);
+    look("search");
+    window.press("Return");
+    EXPECT_TRUE(shows("dominoes:count=100")) << window.title();
+    EXPECT_TRUE(shows("step 0 - paused"));
 
     // A snapshot of another scene.
     World world({}, options_on(DeviceKind::Cpu));
@@ -377,6 +387,23 @@ TEST_F(WindowOnScreen, is_larger_on_a_hidpi_screen) {
     EXPECT_EQ(picture.width, 1200u);
     EXPECT_EQ(picture.height, 800u);
     EXPECT_LT(colour_at(picture, 2 * k_panel - 20, 700).blue, 90) << "the panels are twice as wide";
+}
+
+TEST_F(WindowOnScreen, shows_the_picture_of_the_documents) {
+    XWindow& window = open("pool:boxes=150", 1280, 720);
+    ASSERT_TRUE(shows("step 0 "));
+    window.press("space");
+    ASSERT_TRUE(reaches_step(80));
+    window.move_mouse(800, 380);
+    window.press("x");
+    window.press("1");
+    window.press("3");
+    ASSERT_TRUE(reaches_step(100));
+    window.press("space");
+    ASSERT_TRUE(shows("paused"));
+    const render::Picture picture = look("view");
+    EXPECT_GT(count_pixels(picture, is_green), 20000);
+    EXPECT_GT(count_pixels(picture, is_pink), 100);
 }
 
 // ---- without a screen ----

@@ -199,13 +199,14 @@ void XWindow::hold_button(int button, bool down) const {
 }
 
 void XWindow::click(int x, int y) const {
-    // A panel takes notice of the mouse before it takes its button.
+    // Panels look at the mouse once a frame: it must not be elsewhere when its button is pressed or let go.
     const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(300)); };
     move_mouse(x, y);
     pause();
     hold_button(1, true);
     pause();
     hold_button(1, false);
+    pause();
 }
 
 void XWindow::turn_wheel(int notches) const {

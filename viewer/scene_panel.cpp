@@ -59,7 +59,15 @@ std::string ScenePanel::specification() const {
 
 void ScenePanel::show(Workbench& bench) {
     ImGui::SetNextItemWidth(-1.0f);
-    ImGui::InputTextWithHint("##search", "search a scene", &search);
+    if (ImGui::InputTextWithHint("##search", "search a scene; Enter opens the first", &search,
+                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+        const auto& all = scenes::list_scenes();
+        const auto first = std::ranges::find_if(all, [&](const auto& scene) { return matches(scene, search); });
+        if (first != all.end()) {
+            if (chosen != &*first) choose(*first);
+            bench.open(specification());
+        }
+    }
     if (ImGui::BeginListBox("##scenes", {-1.0f, 7.5f * ImGui::GetTextLineHeightWithSpacing()})) {
         for (const scenes::SceneInfo& scene : scenes::list_scenes()) {
             if (!matches(scene, search)) continue;
