@@ -32,6 +32,9 @@ void add_view(CLI::App& app, int& status) {
         ->check(CLI::Range(64u, 8192u))
         ->type_name("N")
         ->capture_default_str();
+    command->add_option("--seconds", options->seconds, "Close the window after so long, and print the frame rate")
+        ->check(CLI::Range(0.1, 1.0e6))
+        ->type_name("S");
     command->callback([options, &status] {
         viewer::run_viewer(*options);
         status = k_done;

@@ -380,6 +380,17 @@ TEST_F(WindowOnScreen, saves_pictures_and_videos) {
     EXPECT_NEAR(2.0 * frames, static_cast<double>(step_in(window.title())), 3.0);
 }
 
+TEST_F(WindowOnScreen, closes_after_so_long_and_tells_the_frame_rate) {
+    const Ending ending = shell("xvfb-run -a '" TALUS_PROGRAM_FILE "' view stack:height=2 --device cpu --seconds 1");
+    EXPECT_EQ(ending.status, 0) << ending.errors;
+    int frames = 0;
+    double seconds = 0.0, rate = 0.0;
+    ASSERT_EQ(std::sscanf(ending.output.c_str(), "%d frames in %lf s: %lf frames/s", &frames, &seconds, &rate), 3)
+        << ending.output;
+    EXPECT_GE(seconds, 1.0);
+    EXPECT_NEAR(rate * seconds, frames, 0.1 * frames + 1.0);
+}
+
 TEST_F(WindowOnScreen, is_larger_on_a_hidpi_screen) {
     open("stack:height=2", 600, 400, 192);
     ASSERT_TRUE(shows("step 0 "));

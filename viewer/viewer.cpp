@@ -49,9 +49,14 @@ public:
             bench.say(warning);
     }
 
-    void run() {
-        Clock::time_point last = Clock::now();
+    /// Until the window is closed, or for so long.
+    void run(std::optional<double> seconds) {
+        const Clock::time_point start = Clock::now();
+        Clock::time_point last = start;
+        std::uint64_t frames = 0;
+        std::chrono::duration<double> work{0.0};
         while (!window.should_close()) {
+            if (seconds && std::chrono::duration<double>(last - start).count() >= *seconds) break;
             if (bench.session.running || busy_frames > 0)
                 glfwPollEvents();
             else
@@ -62,10 +67,19 @@ public:
             last = now;
             if (busy_frames > 0) --busy_frames;
             frame(elapsed);
+            ++frames;
+            work += Clock::now() - now;
             // Where the system does not wait for the screen's refresh, as without a screen.
             std::this_thread::sleep_until(now + std::chrono::duration<double>(0.95 / window.refresh_rate()));
         }
-        bench.attempt([&] { bench.display.finish_video(); });
+        if (seconds) {
+            const double shown = std::chrono::duration<double>(last - start).count();
+            fmt::print(
+                "{} frames in {:.1f} s: {:.1f} frames/s, {:.2f} ms of work a frame, {:.2f} × real time\n", frames,
+                shown, static_cast<double>(frames) / shown, 1.0e3 * work.count() / static_cast<double>(frames),
+                static_cast<double>(bench.session.world().step_count()) * bench.session.world().settings().dt / shown);
+        }
+        bench.display.finish_video(); // here its error ends the program: there is no window any more to tell it
     }
 
 private:
@@ -197,7 +211,7 @@ void Viewer::frame(std::chrono::duration<double> elapsed) {
 } // namespace
 
 void run_viewer(const ViewOptions& options) {
-    Viewer(options).run();
+    Viewer(options).run(options.seconds);
 }
 
 } // namespace talus::viewer

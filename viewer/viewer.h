@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "cli/run_options.h"
 #include "render/overlays.h"
@@ -14,6 +15,7 @@ struct ViewOptions {
     render::Overlays overlays;
     std::uint32_t width = 1280, height = 720;
     bool paused = false;
+    std::optional<double> seconds; ///< after which the window closes, and says how many frames it showed
 };
 
 /// Returns when the window is closed. Throws Error where no window can be opened, or the scene or the device cannot be
