@@ -9,6 +9,9 @@
 
 namespace talus::engine {
 
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 8,
+              "another buffer survives the step: snapshots have to hold it too");
+
 std::size_t SavedState::bytes() const {
     std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
                       impulses.size() * sizeof(float);
