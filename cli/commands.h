@@ -16,6 +16,7 @@ inline constexpr int k_interrupted = 130;    ///< as shells report SIGINT
 
 void add_demo(CLI::App&, int& status);
 void add_run(CLI::App&, int& status);
+void add_view(CLI::App&, int& status);
 void add_bench(CLI::App&, int& status);
 void add_parity(CLI::App&, int& status);
 void add_scenes(CLI::App&, int& status);

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     int status = k_done;
     add_demo(app, status);
     add_run(app, status);
+    add_view(app, status);
     add_bench(app, status);
     add_parity(app, status);
     add_scenes(app, status);

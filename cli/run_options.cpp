@@ -2,6 +2,7 @@
 // The options' names, limits and help texts.
 #include "cli/run_options.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <CLI/Config.hpp>
@@ -64,17 +65,19 @@ CLI::Validator ends_in(const std::string& ending) {
             ""};
 }
 
+std::string list_overlay_names(std::string_view between) {
+    std::string list;
+    for (const render::OverlayInfo& overlay : render::list_overlays())
+        list += (list.empty() ? "" : std::string(between)) + std::string(overlay.name);
+    return list;
+}
+
 void set_overlays(render::Overlays& overlays, const std::string& list) {
     for (const std::string& word : CLI::detail::split(list, ',')) {
-        if (word == "contacts") {
-            overlays.contacts = true;
-        } else if (word == "aabbs") {
-            overlays.aabbs = true;
-        } else if (word == "pairs") {
-            overlays.pairs = true;
-        } else {
-            throw CLI::ValidationError("--show", fmt::format("'{}' is not one of contacts, aabbs, pairs", word));
-        }
+        const auto found = std::ranges::find(render::list_overlays(), word, &render::OverlayInfo::name);
+        if (found == render::list_overlays().end())
+            throw CLI::ValidationError("--show", fmt::format("'{}' is not one of {}", word, list_overlay_names(", ")));
+        overlays.*found->shown = true;
     }
 }
 
@@ -125,6 +128,14 @@ void add_solver_options(CLI::App& command, SimulationOptions& options) {
                "How pairs are found: sweep and prune, a tree of bounding boxes, or every pair");
 }
 
+void add_overlay_option(CLI::App& command, render::Overlays& overlays) {
+    command
+        .add_option_function<std::string>(
+            "--show", [&overlays](const std::string& list) { set_overlays(overlays, list); },
+            "What to draw over the bodies, separated by commas: " + list_overlay_names(", "))
+        ->type_name("LIST");
+}
+
 void add_output_options(CLI::App& command, OutputOptions& options) {
     command.add_option("--report", options.report, "Write counts, times and quality as JSON")
         ->check(CLI::Validator(check_named, ""))
@@ -139,11 +150,7 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
     command.add_option("--image", options.image, "Write a picture of the end")
         ->check(ends_in(".png"))
         ->type_name("FILE.png");
-    command
-        .add_option_function<std::string>(
-            "--show", [&options](const std::string& list) { set_overlays(options.overlays, list); },
-            "What to draw over the bodies, separated by commas")
-        ->type_name("contacts,aabbs,pairs");
+    add_overlay_option(command, options.overlays);
     command.add_option("--width", options.width, "Pixels of a picture")
         ->check(CLI::Range(16u, k_largest_side))
         ->type_name("N")

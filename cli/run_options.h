@@ -43,6 +43,8 @@ struct OutputOptions {
 void add_simulation_options(CLI::App& command, SimulationOptions& options);
 void add_output_options(CLI::App& command, OutputOptions& options);
 void add_device_options(CLI::App& command, SimulationOptions& options);
+/// --show: what is drawn besides the bodies.
+void add_overlay_option(CLI::App& command, render::Overlays& overlays);
 /// The length of a step and how it is solved.
 void add_solver_options(CLI::App& command, SimulationOptions& options);
 

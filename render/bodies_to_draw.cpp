@@ -60,7 +60,7 @@ void BodiesToDraw::list_bodies(const World& world) {
     if (world.device().kind == DeviceKind::Cpu) own_shapes.upload(shapes);
 }
 
-void BodiesToDraw::update(const World& world, Drawing& drawing) {
+void BodiesToDraw::update_bodies(const World& world, Drawing& drawing) {
     std::vector<BodyId> present = world.bodies();
     if (!listed || present != bodies) {
         bodies = std::move(present);
@@ -88,28 +88,36 @@ void BodiesToDraw::update(const World& world, Drawing& drawing) {
     drawing.shapes = own_shapes;
 }
 
-void BodiesToDraw::update_marks(const World& world, Drawing& drawing) {
-    std::vector<std::uint32_t> in_a_pair(slot_count, 0);
-    for (const CollisionPair& pair : world.collision_pairs()) {
-        for (const BodyId id : {pair.a, pair.b}) {
-            // Nearly every scene's ground is in some pair: in red it would tell nothing.
-            if (id.index < slot_count && world.contains(id) && world.kind(id) != BodyKind::Static)
-                in_a_pair[id.index] = 1;
-        }
-    }
-    marks.upload(in_a_pair);
-    drawing.marks = marks;
-}
+void BodiesToDraw::update(const World& world, const Overlays& overlays, Drawing& drawing, std::span<const Line> more) {
+    update_bodies(world, drawing);
+    drawing.aabbs = overlays.aabbs;
+    drawing.wireframe = overlays.wireframe;
+    drawing.transparent_static = overlays.transparent;
 
-void BodiesToDraw::update_contacts(const World& world, Drawing& drawing) {
-    std::vector<glm::vec4> points;
-    for (const Contact& contact : world.contacts()) {
-        for (const ContactPoint& point : contact.points)
-            points.emplace_back(point.position.x, point.position.y, point.position.z, 0.0f);
+    std::vector<Contact> touching;
+    if (overlays.contacts || overlays.normals || overlays.impulses || overlays.colours || overlays.islands)
+        touching = world.contacts();
+    if (overlays.pairs || overlays.islands) {
+        tints.upload(tints_of(world, touching, overlays, slot_count));
+        drawing.tints = tints;
     }
-    contacts.upload(points);
-    drawing.contacts = contacts;
-    drawing.contact_count = static_cast<std::uint32_t>(points.size());
+    if (overlays.contacts) {
+        std::vector<glm::vec4> points;
+        for (const Contact& contact : touching)
+            for (const ContactPoint& point : contact.points)
+                points.emplace_back(point.position.x, point.position.y, point.position.z, 0.0f);
+        contacts.upload(points);
+        drawing.contacts = contacts;
+        drawing.contact_count = static_cast<std::uint32_t>(points.size());
+    }
+    std::vector<Line> all(more.begin(), more.end());
+    if (overlays.normals || overlays.impulses || overlays.colours)
+        add_contact_lines(all, world, touching, overlays, typical);
+    if (overlays.velocities) add_velocity_lines(all, world, typical);
+    if (all.empty()) return;
+    lines.upload(all);
+    drawing.lines = lines;
+    drawing.line_count = static_cast<std::uint32_t>(all.size());
 }
 
 } // namespace talus::render

@@ -50,10 +50,25 @@ void Canvas::begin() {
     glEnable(GL_MULTISAMPLE);
 }
 
-void Canvas::send() {
+void Canvas::resolve() {
     const auto columns = static_cast<GLint>(width), rows = static_cast<GLint>(height);
+    glEnable(GL_FRAMEBUFFER_SRGB);
     glBlitNamedFramebuffer(drawn, resolved, 0, 0, columns, rows, 0, 0, columns, rows, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
 
+void Canvas::show(GLuint framebuffer, std::uint32_t left, std::uint32_t columns, std::uint32_t rows) {
+    resolve();
+    // A window's pixels are sRGB already, whether or not its framebuffer says so: they are copied as they are.
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    const auto right = static_cast<GLint>(std::min(columns, width)), top = static_cast<GLint>(std::min(rows, height));
+    const auto start = static_cast<GLint>(left);
+    glBlitNamedFramebuffer(resolved, framebuffer, 0, 0, right, top, start, 0, start + right, top, GL_COLOR_BUFFER_BIT,
+                           GL_NEAREST);
+}
+
+void Canvas::send() {
+    resolve();
+    const auto columns = static_cast<GLint>(width), rows = static_cast<GLint>(height);
     ReadBack& slot = ring[sent % k_ring_size];
     glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer.name());

@@ -24,11 +24,16 @@ public:
     void begin();
     /// Sends what was drawn on its way. There must be room in the ring.
     void send();
+    /// Puts what was drawn into another framebuffer, such as a window's, pixel by pixel: this much of it, with its
+    /// lower left corner `left` pixels from that one's.
+    void show(GLuint framebuffer, std::uint32_t left, std::uint32_t columns, std::uint32_t rows);
     /// The oldest picture that was sent; waits for it. There must be one.
     Picture receive();
     std::size_t pending() const noexcept { return sent - received; }
 
 private:
+    void resolve();
+
     struct ReadBack {
         engine::GlBuffer buffer;
         engine::GlFence fence;

@@ -15,7 +15,7 @@ namespace {
 
 // Bindings, as the shaders' layout qualifiers have them.
 constexpr GLuint k_view = 0;
-constexpr GLuint k_poses = 0, k_shapes = 1, k_slots = 2, k_marks = 3, k_shadow_bounds = 4, k_contacts = 5;
+constexpr GLuint k_poses = 0, k_shapes = 1, k_slots = 2, k_tints = 3, k_shadow_bounds = 4, k_contacts = 5, k_lines = 6;
 
 constexpr GLsizei k_box_indices = 36;
 
@@ -29,6 +29,10 @@ bool runs_in_software() {
 
 void set(GLuint program, const char* uniform, GLuint value) {
     glProgramUniform1ui(program, glGetUniformLocation(program, uniform), value);
+}
+
+void set(GLuint program, const char* uniform, GLint value) {
+    glProgramUniform1i(program, glGetUniformLocation(program, uniform), value);
 }
 
 void set(GLuint program, const char* uniform, float value) {
@@ -55,6 +59,7 @@ Painter::Painter() {
     background = make_program("background", drawn);
     aabb = make_program("aabb", drawn);
     contact = make_program("contact", drawn);
+    line = make_program("line", drawn);
 
     std::array<std::uint16_t, k_box_indices> indices{};
     for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -70,8 +75,8 @@ Painter::Painter() {
     glNamedBufferStorage(view_block, sizeof(View), nullptr, GL_DYNAMIC_STORAGE_BIT);
     shadow_bounds = make_buffer();
     glNamedBufferStorage(shadow_bounds, 32, nullptr, GL_DYNAMIC_STORAGE_BIT);
-    no_marks = make_buffer();
-    glNamedBufferStorage(no_marks, 4, nullptr, 0);
+    no_tints = make_buffer();
+    glNamedBufferStorage(no_tints, 4, nullptr, 0);
 
     shadow_map = make_texture(GL_TEXTURE_2D);
     glTextureStorage2D(shadow_map, 1, GL_DEPTH_COMPONENT32F, shadow_size, shadow_size);
@@ -100,9 +105,10 @@ void Painter::paint(const View& camera, const Drawing& drawing) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_poses, drawing.poses);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_shapes, drawing.shapes);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_slots, drawing.slots);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_marks, drawing.marks != 0 ? drawing.marks : GLuint{no_marks});
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_tints, drawing.tints != 0 ? drawing.tints : GLuint{no_tints});
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_shadow_bounds, shadow_bounds);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_contacts, drawing.contact_count > 0 ? drawing.contacts : 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_lines, drawing.line_count > 0 ? drawing.lines : 0);
 
     // What the caller may have left on.
     for (const GLenum capability :
@@ -126,9 +132,15 @@ void Painter::paint(const View& camera, const Drawing& drawing) {
     constexpr float k_far = 1.0f;
     glClearBufferfv(GL_DEPTH, 0, &k_far);
     glBindTextureUnit(0, shadow_map);
-    for (const GLuint program : {GLuint{box}, GLuint{sphere}})
-        set(program, "show_pairs", drawing.marks != 0 ? 1u : 0u);
+    for (const GLuint program : {GLuint{box}, GLuint{sphere}}) {
+        set(program, "tinted", drawing.tints != 0 ? 1 : 0);
+        set(program, "wireframe", drawing.wireframe ? 1 : 0);
+        set(program, "transparent_static", drawing.transparent_static ? 1 : 0);
+    }
+    enable(GL_CULL_FACE, !drawing.wireframe);
+    enable(GL_SAMPLE_ALPHA_TO_COVERAGE, drawing.transparent_static);
     draw_boxes(box, drawing);
+    glEnable(GL_CULL_FACE);
     glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     draw_spheres(sphere, drawing);
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
@@ -143,7 +155,11 @@ void Painter::paint(const View& camera, const Drawing& drawing) {
         glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
         glDrawArraysInstanced(GL_LINES, 0, 24, static_cast<GLsizei>(drawing.box_count + drawing.sphere_count));
     }
-    if (drawing.contact_count > 0) paint_contacts(drawing.contact_count);
+    if (drawing.line_count > 0) {
+        set(line, "pixel_scale", drawing.pixel_scale);
+        paint_over(line, drawing.line_count);
+    }
+    if (drawing.contact_count > 0) paint_over(contact, drawing.contact_count);
     glBindVertexArray(0);
     glUseProgram(0);
 }
@@ -190,19 +206,21 @@ void Painter::draw_spheres(GLuint program, const Drawing& drawing) {
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(drawing.sphere_count));
 }
 
-void Painter::paint_contacts(std::uint32_t count) {
-    glUseProgram(contact);
+void Painter::paint_over(GLuint program, std::uint32_t count) {
+    glUseProgram(program);
     glEnable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
     // First all of them, faintly; then those that nothing hides, in full.
     for (const bool hidden : {true, false}) {
         enable(GL_DEPTH_TEST, !hidden);
-        set(contact, "opacity", hidden ? 0.3f : 1.0f);
+        set(program, "opacity", hidden ? 0.3f : 1.0f);
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
     }
     glDepthMask(GL_TRUE);
     glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
 }
 

@@ -56,11 +56,8 @@ struct Renderer::Impl {
 
 void Renderer::Impl::submit() {
     Drawing drawing;
-    drawing.aabbs = overlays.aabbs;
     make_current();
-    bodies->update(world, drawing);
-    if (overlays.pairs) bodies->update_marks(world, drawing);
-    if (overlays.contacts) bodies->update_contacts(world, drawing);
+    bodies->update(world, overlays, drawing);
     make_current(); // the calls on the world may have left it otherwise
 
     // What the solver's kernels wrote must be seen by the shaders, and be drawn before the next step changes it.

@@ -8,17 +8,11 @@
 
 #include <talus/world.h>
 
+#include "render/overlays.h"
 #include "render/picture.h"
 #include "scenes/scene.h"
 
 namespace talus::render {
-
-/// What is drawn besides the bodies.
-struct Overlays {
-    bool contacts = false; ///< contact points: pink, fainter where a body hides them
-    bool aabbs = false;    ///< bounding boxes along the world's axes, as thin lines
-    bool pairs = false;    ///< rigid and kinematic bodies in a candidate pair: red
-};
 
 /// Draws one world: static bodies blue, rigid ones green, kinematic ones orange.
 class Renderer {

@@ -77,6 +77,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
         masses.emplace_back();
         inertias.emplace_back();
         generations.push_back(0);
+        if (next_generations.size() == slot) next_generations.push_back(0);
         present.push_back(0);
         dirty.push_back(0);
     } else {
@@ -84,6 +85,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
         free_slots.pop_back();
     }
 
+    generations[slot] = next_generations[slot]++;
     const bool rigid = definition.kind == BodyKind::Rigid;
     const auto [mass, inertia] = mass_properties(definition);
     const Material& material = definition.material;
@@ -119,7 +121,6 @@ void BodyTable::remove(BodyId id) {
     shapes[slot].type = k_kind_absent << 8;
     velocities[slot] = {};
     present[slot] = 0;
-    ++generations[slot];
     --present_count;
     resting_slots.push_back(slot);
     mark(slot, k_dirty_shape | k_dirty_velocity);
@@ -134,6 +135,43 @@ void BodyTable::recycle() {
     free_slots.insert(free_slots.end(), resting_slots.begin(), resting_slots.end());
     if (!resting_slots.empty()) std::ranges::sort(free_slots, std::greater{});
     resting_slots.clear();
+}
+
+void BodyTable::restore(const BodyTable& saved) {
+    std::vector<std::uint32_t> newest = std::move(next_generations);
+    *this = saved;
+    if (newest.size() < next_generations.size()) newest.resize(next_generations.size());
+    for (std::size_t slot = 0; slot < next_generations.size(); ++slot)
+        newest[slot] = std::max(newest[slot], next_generations[slot]);
+    next_generations = std::move(newest);
+    for (uint slot = 0; slot < slot_count(); ++slot)
+        mark(slot, k_dirty_all);
+}
+
+std::string BodyTable::complete() {
+    const std::size_t slots = poses.size();
+    for (const std::size_t size : {velocities.size(), shapes.size(), properties.size(), loads.size(), masses.size(),
+                                   inertias.size(), generations.size(), present.size()})
+        if (size != slots) return "its lists of bodies have different lengths";
+    if (next_generations.size() < slots || slots > k_most_bodies) return "its lists of bodies have wrong lengths";
+    dirty.assign(slots, 0);
+    changed.clear();
+    present_count = bouncing_count = kinematic_count = 0;
+    for (uint slot = 0; slot < slots; ++slot) {
+        const uint kind = shapes[slot].type >> 8, shape = shapes[slot].type & 255u;
+        if (present[slot] > 1 || generations[slot] >= next_generations[slot] ||
+            (present[slot] != 0 ? kind > k_kind_kinematic || shape > k_shape_sphere : kind != k_kind_absent))
+            return "body " + std::to_string(slot) + " is of no known kind";
+        if (present[slot] == 0) continue;
+        ++present_count;
+        if (properties[slot].restitution > 0.0f) ++bouncing_count;
+        if (kind_of(slot) == BodyKind::Kinematic) ++kinematic_count;
+    }
+    std::vector<std::uint8_t> listed(present);
+    for (const std::vector<uint>* list : {&free_slots, &resting_slots})
+        for (const uint slot : *list)
+            if (slot >= slots || listed[slot]++ != 0) return "its list of empty places is wrong";
+    return {};
 }
 
 void BodyTable::mark(uint slot, std::uint8_t what) {

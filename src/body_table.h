@@ -2,6 +2,7 @@
 // The host's record of all bodies: who is there, and a copy of what the device holds of them.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <talus/types.h>
@@ -45,6 +46,15 @@ public:
     BodyId id_of(uint slot) const { return {slot, generations[slot]}; }
     BodyKind kind_of(uint slot) const { return static_cast<BodyKind>(shapes[slot].type >> 8); }
 
+    /// Becomes a table of earlier, or another world's; all of it counts as changed. Ids that were given out since, and
+    /// whose bodies are gone with it, stay invalid for ever.
+    void restore(const BodyTable&);
+    /// Whether the lists fit together, and what follows from them: for a table that was read from a file. Returns what
+    /// is wrong; empty where nothing is.
+    std::string complete();
+    /// Calls `visit` with each list that makes up a table; what is not among them follows from them.
+    template <typename Table, typename Visit> static void visit_lists(Table& table, const Visit& visit);
+
     void mark(uint slot, std::uint8_t what);
     /// The changed slots in ascending order, each with its Dirty bits; forgets them.
     std::vector<std::pair<uint, std::uint8_t>> take_changes();
@@ -64,7 +74,8 @@ public:
     uint kinematic_count = 0;
 
 private:
-    std::vector<std::uint32_t> generations;
+    std::vector<std::uint32_t> generations;      // of the body that is or was last in the slot
+    std::vector<std::uint32_t> next_generations; // of the next body; also of slots that a restored table lacks
     std::vector<std::uint8_t> present;
     std::vector<std::uint8_t> dirty;
     std::vector<uint> changed;
@@ -72,6 +83,21 @@ private:
     std::vector<uint> resting_slots;
     std::size_t present_count = 0;
 };
+
+template <typename Table, typename Visit> void BodyTable::visit_lists(Table& table, const Visit& visit) {
+    visit(table.poses);
+    visit(table.velocities);
+    visit(table.shapes);
+    visit(table.properties);
+    visit(table.loads);
+    visit(table.masses);
+    visit(table.inertias);
+    visit(table.generations);
+    visit(table.next_generations);
+    visit(table.present);
+    visit(table.free_slots);
+    visit(table.resting_slots);
+}
 
 vec3 to_glm(Vec3);
 vec4 to_glm(Quat);

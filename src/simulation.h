@@ -12,6 +12,8 @@
 
 namespace talus::engine {
 
+struct SavedState;
+
 class Simulation {
 public:
     /// Throws Error where the device cannot be had.
@@ -30,6 +32,10 @@ public:
 
     /// Makes room for pairs, so that a step with no more of them fits.
     void reserve_pairs(uint count);
+
+    /// Makes the steps that a saved state had made those of this simulation, and its last step's results the last
+    /// one's; the bodies are not its business. Throws Error where there is no room, and has changed nothing then.
+    void restore(const SavedState&);
 
     void set_settings(const Settings&);
     /// Enqueues a step; waits for the oldest one if too many are on their way.

@@ -11,6 +11,7 @@
 #include "body_table.h"
 #include "checks.h"
 #include "device/gl/callers_context.h"
+#include "saved_state.h"
 #include "simulation.h"
 #include "state/formulas.h"
 #include "step_results.h"
@@ -118,6 +119,17 @@ struct World::Impl {
             simulation.step(table.population(), poses_wanted);
             table.recycle();
         }
+    }
+
+    void restore(const SavedState& saved) {
+        const CallersContext callers(own_context);
+        simulation.restore(saved);
+        simulation.set_settings(saved.settings);
+        settings = saved.settings;
+        table.restore(saved.table);
+        table_step = saved.report.step;
+        device_slots = saved.counters[k_counter_body_count];
+        steps_before.assign(table.slot_count(), table_step); // a frame of the time before is no longer there
     }
 
     template <typename T, typename F> std::vector<T> for_present(const F& value) const {
@@ -339,6 +351,16 @@ void World::wait() const {
     const CallersContext callers(impl_->own_context);
     impl_->simulation.settle();
 }
+Snapshot World::snapshot() const {
+    impl_->refresh();
+    const CallersContext callers(impl_->own_context);
+    return Snapshot(std::make_shared<const SavedState>(save_state(impl_->simulation, impl_->table, impl_->settings)));
+}
+
+void World::restore(const Snapshot& snapshot) {
+    impl_->restore(*snapshot.state_);
+}
+
 std::uint64_t World::step_count() const noexcept {
     return impl_->simulation.step_count();
 }
@@ -361,8 +383,11 @@ std::vector<Contact> World::contacts() const {
     for (std::size_t i = 0; i < records.manifolds.size(); ++i) {
         const Manifold& manifold = records.manifolds[i];
         if (manifold.point_count == 0 || !impl_->both_present(manifold.body_a, manifold.body_b)) continue;
-        Contact contact{
-            impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b), from_glm(manifold.normal), {}};
+        Contact contact{impl_->table.id_of(manifold.body_a),
+                        impl_->table.id_of(manifold.body_b),
+                        from_glm(manifold.normal),
+                        {},
+                        manifold.colour};
         for (std::size_t k = 4 * i; k < 4 * i + manifold.point_count; ++k)
             contact.points.push_back(
                 {from_glm(records.points[k].position), records.points[k].separation, records.impulses[k]});

@@ -58,7 +58,7 @@ TEST_F(Program, bad_usage_ends_with_2_and_says_what_is_allowed) {
         {"run stack --broad-phase tree", "sap, bvh, brute"},
         {"run stack --stabilisation hard", "soft, baumgarte"},
         {"run stack --solve-order any", "coloured, sequential"},
-        {"run stack --show wires", "contacts, aabbs, pairs"},
+        {"run stack --show wires", "contacts, normals, impulses, aabbs, pairs"},
         {"run stack --report none/report.json", "none/report.json"},
         {"run stack --record .", "folder"},
         {"run stack --state a.json --report ./a.json", "same file"},

@@ -190,6 +190,66 @@ TEST(Renderer, shows_pairs_contacts_and_bounding_boxes_where_asked_for) {
     EXPECT_NE(Renderer(world, k_width, k_height, k_camera, {.aabbs = true}).draw().rgb, plain.rgb);
 }
 
+TEST(Renderer, shows_normals_impulses_and_the_constraint_graph_as_lines) {
+    World world({}, on(DeviceKind::Cpu));
+    world.add(body_at({0.0f, -0.6f, 0.0f}, BodyKind::Static, Box{{4.0f, 0.2f, 4.0f}}));
+    world.add(body_at({}));
+    world.step(3);
+    const Picture plain = Renderer(world, k_width, k_height, k_camera).draw();
+    EXPECT_GT(count(Renderer(world, k_width, k_height, k_camera, {.normals = true}).draw(), is_pink), 10u);
+    const auto is_yellow = [](const Colour& c) { return c.red > c.blue + 80 && c.green > c.blue + 60; };
+    EXPECT_EQ(count(plain, is_yellow), 0u);
+    EXPECT_GT(count(Renderer(world, k_width, k_height, k_camera, {.impulses = true}).draw(), is_yellow), 20u);
+    EXPECT_NE(Renderer(world, k_width, k_height, k_camera, {.colours = true}).draw().rgb, plain.rgb);
+    const auto dark_blue = [](const Colour& c) { return c.blue > 180 && c.red < 80 && c.green < 130; };
+    world.set_velocity(world.bodies()[1], {{4.0f, 0.0f, 0.0f}, {}});
+    EXPECT_GT(count(Renderer(world, k_width, k_height, k_camera, {.velocities = true}).draw(), dark_blue), 10u);
+}
+
+TEST(Renderer, shows_islands_each_in_a_colour) {
+    World world({}, on(DeviceKind::Cpu));
+    for (const float x : {-0.8f, 0.8f})
+        for (const float y : {-0.5f, 0.5f})
+            world.add(body_at({x, y, 0.0f}));
+    world.add(body_at({0.0f, 0.0f, -3.0f})); // touches nothing
+    world.step();
+    ASSERT_EQ(world.contacts().size(), 2u);
+    const scenes::Camera ahead{{0.0f, 0.0f, 6.0f}, {0.0f, 0.0f, 0.0f}, 0.7f};
+    const Picture picture = Renderer(world, k_width, k_height, ahead, {.islands = true}).draw();
+    const auto at = [&](std::uint32_t x, std::uint32_t y) { return colour_at(picture, x, y); };
+    const auto apart = [](const Colour& a, const Colour& b) {
+        return std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue);
+    };
+    const Colour left = at(58, 45), below = at(58, 75), right = at(102, 45);
+    EXPECT_LT(apart(left, below), 60);
+    EXPECT_GT(apart(left, right), 100);
+    EXPECT_TRUE(is_green(at(80, 60))) << "a body alone keeps its colour";
+}
+
+TEST(Renderer, shows_what_is_behind_and_within) {
+    World world({}, on(DeviceKind::Cpu));
+    world.add(body_at({0.0f, 0.0f, -1.0f}));
+    const scenes::Camera ahead{{0.0f, 0.0f, 6.0f}, {0.0f, 0.0f, 0.0f}, 0.7f};
+    const auto draw = [&](const Overlays& overlays) {
+        return Renderer(world, k_width, k_height, ahead, overlays).draw();
+    };
+    const std::size_t whole = count(draw({}), is_green);
+    const std::size_t wires = count(draw({.wireframe = true}), is_green);
+    EXPECT_GT(whole, 400u);
+    EXPECT_GT(wires, 20u);
+    EXPECT_LT(wires, whole * 2 / 3) << "faces are not drawn";
+
+    world.add(body_at({0.0f, 0.0f, 1.5f}, BodyKind::Static, Box{{3.0f, 3.0f, 0.1f}}));
+    const auto box_behind_wall = [&](const Overlays& overlays) {
+        const Picture picture = draw(overlays);
+        const Colour middle = colour_at(picture, 84, 56), wall = colour_at(picture, 45, 60);
+        return std::abs(middle.red - wall.red) + std::abs(middle.green - wall.green) +
+               std::abs(middle.blue - wall.blue);
+    };
+    EXPECT_LT(box_behind_wall({}), 10);
+    EXPECT_GT(box_behind_wall({.transparent = true}), 60);
+}
+
 TEST(Renderer, gives_the_same_picture_from_both_devices) {
     std::array<std::optional<Picture>, 2> pictures;
     for (const std::size_t i : {0u, 1u}) {

@@ -4,5 +4,6 @@
 
 #include <talus/recording.h>
 #include <talus/settings.h>
+#include <talus/snapshot.h>
 #include <talus/types.h>
 #include <talus/world.h>

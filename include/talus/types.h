@@ -105,6 +105,7 @@ struct Contact {
     BodyId a, b;
     Vec3 normal; ///< unit, world space, from a to b
     std::vector<ContactPoint> points;
+    std::uint32_t colour = 0; ///< batch of the constraint graph that solved it; 64: the overflow set, one at a time
 };
 
 /// Every error that Talus reports: what was wrong, where, and what is allowed. The world is as it was before the call.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <talus/settings.h>
+#include <talus/snapshot.h>
 #include <talus/types.h>
 
 namespace talus {
@@ -118,6 +119,15 @@ public:
     /// Waits until every step that was asked for is done.
     void wait() const;
     std::uint64_t step_count() const noexcept;
+
+    /// The world as it is now, waiting for its last step. On a GPU it is copied to the host.
+    Snapshot snapshot() const;
+    /// Makes the world what it was in a snapshot, of this world or of another, on whatever device that ran. Steps from
+    /// here on give the same bits as they did there. Bodies that were added since are gone; those that were removed
+    /// are there again, under their old ids. With a snapshot of another world come that world's bodies and ids, in the
+    /// place of all that were here. What gl_buffers() names has the restored state, but for the AABBs, which the next
+    /// step makes. Throws Error where there is no room for it.
+    void restore(const Snapshot&);
 
     // ---- results of the last step (they wait for it) ----
 

@@ -28,10 +28,12 @@ void main()
     float pixel = eye.w * eye_distance / max(0.25, dot(normal, to_eye));
 
     vec2 to_sides = face_reach.xy - abs(face_position);
-    vec3 surface = albedo * edge_line(min(to_sides.x, to_sides.y), face_reach.z, pixel);
-    if (kind == k_kind_static && min(face_reach.x, face_reach.y) >= 4.0 * sizes.y)
-        surface *= 1.0 + 0.35 * grid_lines();
+    float to_edge = min(to_sides.x, to_sides.y);
+    vec3 surface = albedo * edge_line(to_edge, face_reach.z, pixel);
+    float grid = kind == k_kind_static && min(face_reach.x, face_reach.y) >= 4.0 * sizes.y ? grid_lines() : 0.0;
+    surface *= 1.0 + 0.35 * grid;
+    if (wireframe && grid < 0.3 && !is_on_wire(to_edge, face_reach.z, pixel)) discard;
 
     vec3 lit = light_surface(surface, normal, to_eye, shadow_position);
-    colour = vec4(fade(lit, kind, world_position, gl_FragCoord.y), 1.0);
+    colour = vec4(fade(lit, kind, world_position, gl_FragCoord.y), opacity_of(kind));
 }

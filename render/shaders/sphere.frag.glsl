@@ -29,11 +29,12 @@ void main()
     vec4 to_body = vec4(-pose.rotation.xyz, pose.rotation.w);
     vec3 d = abs(rotate(to_body, radius * normal));
     uint kind = kind_of(shape);
-    vec3 surface = colour_of(slot, kind) *
-                   edge_line(min(min(d.x, d.y), d.z), radius, pixel / max(0.25, -dot(normal, ray)));
+    float to_ring = min(min(d.x, d.y), d.z), surface_pixel = pixel / max(0.25, -dot(normal, ray));
+    if (wireframe && miss < radius - 1.5 * pixel && !is_on_wire(to_ring, radius, surface_pixel)) discard;
+    vec3 surface = colour_of(slot, kind) * edge_line(to_ring, radius, surface_pixel);
 
     vec3 lower, upper;
     shadow_bounds(lower, upper);
     vec3 lit = light_surface(surface, normal, -ray, shadow_place(position, normal, lower, upper));
-    colour = vec4(fade(lit, kind, position, gl_FragCoord.y), cover);
+    colour = vec4(fade(lit, kind, position, gl_FragCoord.y), cover * opacity_of(kind));
 }

@@ -3,7 +3,9 @@
 
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 
-uniform bool show_pairs;
+uniform bool tinted;             // some bodies have the colour of Tints
+uniform bool wireframe;          // edges alone
+uniform bool transparent_static; // static bodies let what is behind them through
 
 // A random number from 0 to 1, the same for a body in every picture.
 float noise(uint x)
@@ -13,18 +15,15 @@ float noise(uint x)
     return float((x ^ (x >> 16)) >> 8) / 16777216.0;
 }
 
-// Linear colours: static blue, rigid green, kinematic orange, in a pair red.
+// Linear colours: static blue, rigid green, kinematic orange, unless an overlay has another.
 vec3 colour_of(uint slot, uint kind)
 {
+    if (tinted && tints[slot] != 0u) return unpackUnorm4x8(tints[slot]).rgb * (0.85 + 0.30 * noise(slot));
     if (kind == k_kind_static) return vec3(0.115, 0.220, 0.460);
     float brightness = 0.85 + 0.30 * noise(slot);
     float warmth = noise(slot + 0x9e3779b9u) - 0.5;
     vec3 colour = kind == k_kind_rigid ? vec3(0.165, 0.470, 0.135) : vec3(0.850, 0.290, 0.035);
     vec3 tint = vec3(1.0 + 0.30 * warmth, 1.0, 1.0 - 0.26 * warmth);
-    if (show_pairs && marks[slot] != 0u) {
-        colour = vec3(0.700, 0.060, 0.045);
-        tint = vec3(1.0);
-    }
     return colour * tint * brightness;
 }
 
@@ -35,11 +34,19 @@ float line(float d, float half_width, float pixel)
     return (1.0 - smoothstep(w - 0.5 * pixel, w + 0.5 * pixel, d)) * min(1.0, half_width / w);
 }
 
-// What is left of a surface's colour d away from an edge of a body that reaches `size` from its centre.
+// Half the width of the lines along the edges of a body that reaches `size` from its centre.
+float edge_width(float size) { return min(0.035 * size, 0.03 * sizes.x); }
+
+// What is left of a surface's colour d away from an edge.
 float edge_line(float d, float size, float pixel)
 {
-    return 1.0 - 0.62 * line(d, min(0.035 * size, 0.03 * sizes.x), pixel);
+    return wireframe ? 1.0 : 1.0 - 0.62 * line(d, edge_width(size), pixel);
 }
+
+// In a wireframe a line is never thinner than a pixel.
+bool is_on_wire(float d, float size, float pixel) { return d < max(edge_width(size), 0.75 * pixel); }
+
+float opacity_of(uint kind) { return transparent_static && kind == k_kind_static ? 0.3 : 1.0; }
 
 // Where the shadow map is looked up for a surface point: a texel or two off the surface, so that a surface does not
 // shadow itself.

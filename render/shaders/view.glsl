@@ -16,7 +16,7 @@ layout(std140, binding = 0) uniform View {
 layout(std430, binding = 0) readonly buffer Poses { BodyPose poses[]; };
 layout(std430, binding = 1) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430, binding = 2) readonly buffer Slots { uint slots[]; }; // the body slots to draw: boxes, then spheres
-layout(std430, binding = 3) readonly buffer Marks { uint marks[]; }; // a body slot: 1 where the body is in a pair
+layout(std430, binding = 3) readonly buffer Tints { uint tints[]; }; // a body slot: packed colour, 0: the body's own
 
 uniform uint first_instance; // entry of Slots that the draw call or launch starts at
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Reads and writes all of the state that a step leaves for the next one. Manifolds without points are kept: the next
+// step asks them for more than their points.
+#include "saved_state.h"
+
+#include <algorithm>
+
+#include "step_results.h"
+
+namespace talus::engine {
+
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 8,
+              "another buffer survives the step: snapshots have to hold it too");
+
+std::size_t SavedState::bytes() const {
+    std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
+                      impulses.size() * sizeof(float);
+    BodyTable::visit_lists(table, [&](const auto& list) { sum += list.size() * sizeof list[0]; });
+    return sum;
+}
+
+SavedState save_state(Simulation& simulation, const BodyTable& table, const Settings& settings) {
+    ContactRecords contacts = read_contacts(simulation);
+    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}};
+    simulation.state_device().read(std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters}});
+    for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
+        const std::size_t first = 4 * i, end = first + contacts.manifolds[i].point_count;
+        for (std::size_t k = first; k < end; ++k) {
+            saved.points.push_back(contacts.points[k]);
+            saved.impulses.push_back(contacts.impulses[k]);
+        }
+    }
+    saved.manifolds = std::move(contacts.manifolds);
+    return saved;
+}
+
+void Simulation::restore(const SavedState& saved) {
+    settle();
+    const auto pair_count = static_cast<uint>(saved.manifolds.size());
+    reserve_bodies(saved.table.slot_count());
+    reserve_pairs(pair_count);
+
+    std::vector<Pair> pairs;
+    std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
+    std::vector<ContactConstraint> constraints; // only what read_contacts reads: the next step makes them anew
+    std::size_t next = 0;
+    for (uint i = 0; i < pair_count; ++i) {
+        const Manifold& manifold = saved.manifolds[i];
+        pairs.push_back({manifold.body_a, manifold.body_b});
+        if (manifold.point_count == 0) continue;
+        ContactConstraint& constraint = constraints.emplace_back();
+        constraint.manifold = i;
+        for (uint k = 0; k < manifold.point_count; ++k, ++next) {
+            points[std::size_t{4} * i + k] = saved.points[next];
+            constraint.total_impulse[static_cast<int>(k)] = saved.impulses[next];
+        }
+    }
+    const auto write_all = [this](BufferId buffer, const auto& records) {
+        if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));
+    };
+    write_all(BufferId::Pairs, pairs);
+    write_all(BufferId::OldManifolds, saved.manifolds);
+    write_all(BufferId::OldManifoldPoints, points);
+    write_all(BufferId::Constraints, constraints);
+    write_all(BufferId::Counters, saved.counters);
+
+    finished_count = saved.report.step;
+    newest_report = saved.report;
+    newest_report.growths = growths;
+    newest_has_poses = false;
+}
+
+} // namespace talus::engine

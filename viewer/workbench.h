@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// All that keys and panels work on, and what they can do with it. What goes wrong becomes a message on the screen.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include "viewer/camera_control.h"
+#include "viewer/display.h"
+#include "viewer/hand.h"
+#include "viewer/session.h"
+
+namespace talus::viewer {
+
+class Workbench {
+public:
+    Workbench(const std::string& scene, DeviceKind, std::uint32_t threads, Session::Adjust settings);
+
+    Session session;
+    Display display;
+    CameraControl camera;
+    Hand hand;
+    Projectile projectile;
+    float aspect = 16.0f / 9.0f; ///< of the picture, width over height
+    bool show_panels = true;
+    bool show_help = false;
+
+    // ---- scenes ----
+    void open(const std::string& specification);
+    /// A scene file or a snapshot, by its ending.
+    void open_file(const std::filesystem::path&);
+    void reset();
+    /// The same scene with another seed; says so where it has none.
+    void reseed();
+    void move_to(DeviceKind);
+    void set_settings(const Settings&);
+
+    // ---- time ----
+    void toggle_running();
+    void step();
+    void step_back();
+    void change_speed(double factor);
+    /// A frame's share of time: steps, forces, the mouse's pull. `pointer` leads through the mouse.
+    void advance(std::chrono::duration<double> elapsed, const Ray& pointer);
+
+    // ---- by hand ----
+    /// Whether there was a body to take hold of.
+    bool take_hold(const Ray&);
+    void let_go();
+    void reach(float notches); ///< what is held: farther (positive) or nearer
+    void shoot(const Ray&);
+    void drop_box(const Ray&);
+    void add_platform(const Ray&);
+    /// Moves the first kinematic body in camera axes, each from -1 to 1: right, up, away.
+    void drive(glm::vec3 direction);
+    void remove_body(const Ray&);
+    void look_at(const Ray&);
+    void look_from_start(); ///< as the scene has it
+
+    // ---- files, in the current folder ----
+    void save_picture();
+    void toggle_video();
+    void save_snapshot();
+    void load_snapshot(); ///< the one that was saved last
+
+    /// To be called after a frame was drawn: adapts what is thrown in to a new scene's bodies.
+    void after_draw();
+
+    /// The newest message, or nothing a few seconds after it came.
+    std::string message() const;
+    void say(const std::string&);
+    /// Does something; where it throws Error, the reason becomes the message.
+    template <typename Action> void attempt(const Action& action) {
+        try {
+            action();
+        } catch (const Error& error) {
+            say(error.what());
+        }
+    }
+
+private:
+    std::filesystem::path next_file(const std::string& ending) const;
+
+    std::string newest_message;
+    std::chrono::steady_clock::time_point message_time;
+    std::filesystem::path newest_snapshot, video_file;
+    float grip_depth = 0.0f; ///< m, along the camera's direction
+    Vec3 driven_velocity;
+    bool is_new_scene = true;
+};
+
+} // namespace talus::viewer
