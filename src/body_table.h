@@ -43,7 +43,11 @@ public:
     std::size_t body_count() const { return present_count; }
     bool is_present(uint slot) const { return present[slot] != 0; }
     BodyId id_of(uint slot) const { return {slot, generations[slot]}; }
-    BodyKind kind_of(uint slot) const { return static_cast<BodyKind>(shapes[slot].type >> 8); }
+    /// Also of a body that was removed, until its slot is used again.
+    BodyId last_id_of(uint slot) const { return {slot, generations[slot] - (is_present(slot) ? 0 : 1)}; }
+    BodyKind kind_of(uint slot) const { return static_cast<BodyKind>(shapes[slot].type >> 8 & 255u); }
+    void set_sensor(uint slot, bool wanted);
+    bool senses(uint slot) const { return (shapes[slot].type & k_sensor_bit) != 0; }
 
     void mark(uint slot, std::uint8_t what);
     /// The changed slots in ascending order, each with its Dirty bits; forgets them.

@@ -10,6 +10,7 @@
 
 #include "body_table.h"
 #include "checks.h"
+#include "contact_events.h"
 #include "device/gl/callers_context.h"
 #include "simulation.h"
 #include "state/formulas.h"
@@ -64,6 +65,13 @@ struct World::Impl {
         // A step uses the loads up.
         std::fill_n(table.loads.begin(), count, BodyLoad{});
         table_step = simulation.step_count();
+    }
+
+    /// Makes events of what the finished steps have reported. To be called before bodies come or go: who is in which
+    /// slot is known as long as that does not change.
+    void collect_events() {
+        for (Simulation::StepReports& reports : simulation.take_reports())
+            append_events(events, reports, table);
     }
 
     /// For changing a body: its records are fresh and its change will reach the device.
@@ -137,6 +145,7 @@ struct World::Impl {
     std::uint64_t table_step = 0; ///< the step whose poses and velocities the table holds
     uint device_slots = 0;        ///< body slots that the device knows of
     bool poses_wanted = false;
+    std::vector<ContactEvent> events;        ///< that the caller has not taken yet
     std::vector<std::uint64_t> steps_before; ///< steps made before each slot's body was added
 };
 
@@ -171,6 +180,7 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
         all.push_back(checked_definition(definitions[i],
                                          definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
     impl_->refresh();
+    impl_->collect_events();
     std::vector<BodyId> ids;
     ids.reserve(all.size());
     for (const BodyDefinition& definition : all) {
@@ -184,6 +194,7 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
 void World::remove(BodyId id) {
     impl_->slot_of(id, "remove");
     impl_->refresh();
+    impl_->collect_events();
     impl_->table.remove(id);
 }
 
@@ -330,6 +341,16 @@ void World::set_material(BodyId id, const Material& material) {
     properties.combine = pack_combine(material);
 }
 
+bool World::is_sensor(BodyId id) const {
+    return impl_->table.senses(impl_->slot_of(id, "is_sensor"));
+}
+
+void World::set_sensor(BodyId id, bool wanted) {
+    const uint slot = impl_->slot_of(id, "set_sensor");
+    impl_->touch(slot, k_dirty_shape);
+    impl_->table.set_sensor(slot, wanted);
+}
+
 // ---- time ----
 
 void World::step(std::uint32_t count) {
@@ -361,8 +382,11 @@ std::vector<Contact> World::contacts() const {
     for (std::size_t i = 0; i < records.manifolds.size(); ++i) {
         const Manifold& manifold = records.manifolds[i];
         if (manifold.point_count == 0 || !impl_->both_present(manifold.body_a, manifold.body_b)) continue;
-        Contact contact{
-            impl_->table.id_of(manifold.body_a), impl_->table.id_of(manifold.body_b), from_glm(manifold.normal), {}};
+        Contact contact{impl_->table.id_of(manifold.body_a),
+                        impl_->table.id_of(manifold.body_b),
+                        from_glm(manifold.normal),
+                        manifold.colour == k_inactive_colour,
+                        {}};
         for (std::size_t k = 4 * i; k < 4 * i + manifold.point_count; ++k)
             contact.points.push_back(
                 {from_glm(records.points[k].position), records.points[k].separation, records.impulses[k]});
@@ -400,6 +424,29 @@ std::uint64_t World::state_hash() const {
     }
     return hash;
 }
+
+// ---- contact events ----
+
+void World::watch_contacts(ContactWatch watch) {
+    check_watch(watch);
+    const CallersContext callers(impl_->own_context);
+    impl_->simulation.watch_contacts(watch);
+}
+
+std::vector<ContactEvent> World::take_contact_events() {
+    wait();
+    impl_->collect_events();
+    return std::exchange(impl_->events, {});
+}
+
+std::vector<ContactEvent> World::take_finished_contact_events() {
+    const CallersContext callers(impl_->own_context);
+    impl_->simulation.poll();
+    impl_->collect_events();
+    return std::exchange(impl_->events, {});
+}
+
+// ---- results without waiting ----
 
 void World::keep_poses_coming(bool wanted) {
     impl_->poses_wanted = wanted;

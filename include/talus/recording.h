@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <talus/export.h>
 #include <talus/types.h>
 
 namespace talus {
@@ -26,7 +27,7 @@ struct RecordingHeader {
 };
 
 /// Writes frame after frame; the file is complete, and appears under its name, once `finish` returns.
-class RecordingWriter {
+class TALUS_API RecordingWriter {
 public:
     /// Throws Error where the file cannot be written.
     RecordingWriter(const std::filesystem::path&, const RecordingHeader&);
@@ -41,7 +42,7 @@ private:
 };
 
 /// Reads a recording. Throws Error on a file that is not one, is damaged, or ends early, and says which.
-class RecordingReader {
+class TALUS_API RecordingReader {
 public:
     explicit RecordingReader(const std::filesystem::path&);
     ~RecordingReader();

@@ -70,12 +70,23 @@ struct Capacities {
     std::uint32_t colours = 0; ///< at most 64; two of them are for hubs and are always there
 };
 
+/// Which contact events a world collects.
+enum class ContactWatch : std::uint32_t {
+    None,    ///< none, which costs nothing
+    Changes, ///< begins and ends
+    All,     ///< also, in each step, every contact that persists
+};
+
 /// What is fixed when a world is made.
 struct WorldOptions {
     DeviceKind device = DeviceKind::Auto;
     GlContext gl_context = GlContext::Own;
     std::uint32_t threads = 0; ///< of the CPU device; 0: as many as the machine has
     bool profile = false;      ///< measure every stage (see StepReport::stage_ms); costs a little time
+    /// A debug context where it is Talus's own: the driver's messages go to the log, with the stage that they come
+    /// from. The environment variable TALUS_GL_DEBUG=1 asks for it too. In the caller's context they go where the
+    /// caller sends them; the stages are debug groups there.
+    bool gl_debug = false;
     Capacities capacities;
 };
 

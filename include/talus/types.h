@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include <talus/export.h>
+
 namespace talus {
 
 struct Vec3 {
@@ -79,6 +81,7 @@ struct BodyDefinition {
     float linear_damping = 0.0f;        ///< 1/s: velocity decays as exp(−damping · t)
     float angular_damping = 0.0f;       ///< 1/s
     Material material;
+    bool sensor = false; ///< reports what it touches, and neither pushes nor is pushed by it
 };
 
 /// Names a body of one world. Stays invalid for ever once the body is removed, also when its index is used again.
@@ -103,12 +106,32 @@ struct ContactPoint {
 /// All that happens between two touching bodies: up to four points that share a normal (the thesis's ContactManifold).
 struct Contact {
     BodyId a, b;
-    Vec3 normal; ///< unit, world space, from a to b
+    Vec3 normal;         ///< unit, world space, from a to b
+    bool sensor = false; ///< one of the two is a sensor: there are no impulses
     std::vector<ContactPoint> points;
 };
 
+/// What has become of a contact in a step.
+enum class ContactPhase : std::uint32_t {
+    Begin,   ///< the two touch, and did not in the step before
+    Persist, ///< they still touch
+    End,     ///< they touched in the step before, and do so no longer; also where one of them was removed
+};
+
+/// What one step has to say of two bodies that touch, or have just touched. Two bodies touch where a point of their
+/// contact carries load in the step, or where they overlap as it begins; once they touch, a gap of less than 5 mm does
+/// not end it. Of a sensor, which carries no load, only the overlap counts.
+struct ContactEvent {
+    std::uint64_t step = 0; ///< as World::step_count() counts: 1 is the world's first step
+    ContactPhase phase = ContactPhase::Begin;
+    BodyId a, b;                      ///< a has the lower index; either may have been removed since
+    bool sensor = false;              ///< one of the two is a sensor
+    Vec3 normal;                      ///< unit, world space, from a to b; at an end as it was last
+    std::vector<ContactPoint> points; ///< none at an end
+};
+
 /// Every error that Talus reports: what was wrong, where, and what is allowed. The world is as it was before the call.
-class Error : public std::runtime_error {
+class TALUS_API Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <talus/export.h>
 #include <talus/settings.h>
 #include <talus/types.h>
 
@@ -46,7 +47,7 @@ struct MemoryUse {
 /// OpenGL names of the buffers to draw from, without a copy. Valid until the next call that changes the world.
 /// Poses: 32 bytes a body: vec3 position, uint flags, vec4 rotation (x, y, z, w).
 /// Shapes: 16 bytes a body: vec3 half extents, uint word with the shape in bits 0–7 (0 box, 1 sphere) and the body's
-/// kind in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here).
+/// kind in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here); bit 16 is set for a sensor.
 /// Pairs: 8 bytes a pair: uint body a, uint body b; their number is the word `pair_count_word` of Counters.
 /// Manifolds: see src/state/records.shared.glsl.
 struct GlBuffers {
@@ -66,7 +67,7 @@ struct GlBuffers {
 ///
 /// `step` on a GPU returns before the GPU has finished; several steps may be on their way. Calls that read results, and
 /// calls that change the world, wait for them first.
-class World {
+class TALUS_API World {
 public:
     /// Throws Error where the device cannot be had; the message lists what was tried.
     explicit World(const Settings& settings = {}, const WorldOptions& options = {});
@@ -111,6 +112,10 @@ public:
     void set_gravity_scale(BodyId, float);
     Material material(BodyId) const;
     void set_material(BodyId, const Material&);
+    bool is_sensor(BodyId) const;
+    /// A sensor reports what it touches, and neither pushes nor is pushed by it. Sensors see rigid and kinematic
+    /// bodies, not each other. What crosses one within a single step may pass unseen.
+    void set_sensor(BodyId, bool);
 
     // ---- time ----
 
@@ -126,6 +131,17 @@ public:
     StepReport report() const;
     /// 64-bit hash of all poses and velocities in the order of `bodies()`: equal where the bits are equal.
     std::uint64_t state_hash() const;
+
+    // ---- contact events ----
+
+    /// Which events the steps from now on collect; None at first. The first step after None reports all contacts that
+    /// it finds as begun. Waits for the steps on their way.
+    void watch_contacts(ContactWatch);
+    /// All events since the last call of either function, in the order of steps, and in each step of the bodies'
+    /// indices. Waits for the last step. None is ever left out; until they are taken they stay in the host's memory.
+    std::vector<ContactEvent> take_contact_events();
+    /// The same without waiting: those of the steps that are finished by now.
+    std::vector<ContactEvent> take_finished_contact_events();
 
     // ---- results without waiting ----
 
@@ -159,9 +175,9 @@ private:
 };
 
 /// The stages of a step in run order: the rows of StepReport::stage_ms.
-std::span<const char* const> stage_names() noexcept;
+TALUS_API std::span<const char* const> stage_names() noexcept;
 
 /// Every device that a world could run on here, and those that cannot be used with the reason in `why`.
-std::vector<DeviceInfo> list_devices();
+TALUS_API std::vector<DeviceInfo> list_devices();
 
 } // namespace talus

@@ -36,4 +36,6 @@ namespace talus::engine {
 #include "resolution/hit.shared.glsl"
 #include "resolution/island.shared.glsl"
 
+#include "finish/contact_report.shared.glsl"
+
 } // namespace talus::engine
