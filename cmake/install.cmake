@@ -62,13 +62,15 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtalus-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}\nHeaders, the static library, and what CMake and pkg-config look for.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+    "${PROJECT_DESCRIPTION}\nHeaders, the static library, and what CMake and pkg-config look for.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libtalus${talus_soname} (= ${PROJECT_VERSION}), libegl-dev, libepoxy-dev, libtbb-dev, libzstd-dev")
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME talus)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}\nThe program talus: scenes, measurements, pictures and videos.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
+    "${PROJECT_DESCRIPTION}\nThe program talus: scenes, measurements, pictures and videos.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "ffmpeg, libegl1, libgl1-mesa-dri")
 include(CPack)

@@ -151,6 +151,8 @@ struct World::Impl {
 
 namespace {
 
+static_assert(GlBuffers::pair_count_word == k_counter_pair_count);
+
 std::string name_of(const char* call, BodyId id) {
     return fmt::format("{}: body {}", call, id.index);
 }

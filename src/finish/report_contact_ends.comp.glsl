@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a pair of the last step: a report where its bodies touched, and do so no longer. Launched only where
-// contacts are watched. args.y: reports that leave with the step.
+// One invocation is a pair of the last step: a report where its bodies touched, and do so no longer. Launched only
+// where contacts are watched. args.y: reports that leave with the step.
 // Reads: OldManifolds, OldContactStates.
 // Writes: ContactReports, in an order that depends on who comes first; Counters.
 // Needs: a barrier after report_contacts.
