@@ -62,8 +62,9 @@ TEST_P(Log, warns_of_a_body_that_is_frozen) {
     EXPECT_EQ(count(LogLevel::Warning, ""), 1u);
 }
 
-TEST_P(Log, has_the_messages_of_opengl_with_the_stage_that_they_come_from) {
-    if (!has_gl()) return; // there is nothing to say
+class LogOfOpenGl : public Log {};
+
+TEST_P(LogOfOpenGl, has_the_driver_s_messages_with_the_stage_that_they_come_from) {
     WorldOptions options = options_on(GetParam());
     options.gl_debug = true;
     World world({}, options);
@@ -86,6 +87,8 @@ TEST_P(Log, has_the_messages_of_opengl_with_the_stage_that_they_come_from) {
 }
 
 TALUS_ON_EVERY_DEVICE(Log);
+INSTANTIATE_TEST_SUITE_P(Devices, LogOfOpenGl, testing::Values(DeviceKind::Gpu, DeviceKind::Hybrid),
+                         [](const auto& test) { return name_of(test.param); });
 
 class LogOfNoWorld : public Log {};
 
