@@ -64,6 +64,19 @@ std::vector<std::string> blocks_of(const std::string& text, const std::string& l
     return blocks;
 }
 
+/// The text without its code blocks.
+std::string prose_of(const std::string& text) {
+    std::string prose;
+    bool inside = false;
+    for (const std::string& line : lines_of(text)) {
+        if (line.starts_with("```"))
+            inside = !inside;
+        else if (!inside)
+            prose += line + '\n';
+    }
+    return prose;
+}
+
 std::vector<fs::path> documents() {
     std::vector<fs::path> files{k_root / "README.md", k_root / "CHANGELOG.md"};
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(k_root / "docs"))
@@ -166,7 +179,7 @@ TEST(Readme, cmake_presets_exist) {
 TEST(Documents, links_lead_to_files) {
     const std::regex link(R"(\]\(([^)#]+)(#[^)]*)?\))");
     for (const fs::path& document : documents()) {
-        const std::string text = text_of(document);
+        const std::string text = prose_of(text_of(document));
         for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
             const std::string target = (*found)[1];
             if (target.find("://") != std::string::npos) continue;
