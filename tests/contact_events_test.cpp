@@ -266,6 +266,40 @@ TEST_P(ContactEvents, of_sensors_are_with_what_moves_and_is_no_sensor) {
               (std::vector<std::string>{"1: begin 0 2 sensor", "1: begin 1 3 sensor", "1: begin 2 3 sensor"}));
 }
 
+TEST_P(ContactEvents, in_a_large_world_are_those_of_a_small_one) {
+    const auto events_among = [this](std::size_t others) {
+        World world = make_world();
+        world.add(mixed_bodies_and_sensors());
+        std::vector<BodyDefinition> far(others, box_at({0.0f, 900.0f, 0.0f}, {1.0f, 1.0f, 1.0f}, BodyKind::Static));
+        world.add(far);
+        world.watch_contacts(ContactWatch::All);
+        world.step(3);
+        return words_of(world.take_contact_events());
+    };
+    const std::vector<std::string> small = events_among(1), large = events_among(1'100);
+    EXPECT_GT(small.size(), 10u);
+    EXPECT_EQ(small, large);
+}
+
+TEST_P(ContactEvents, of_a_body_change_as_it_becomes_a_sensor_also_in_a_large_world) {
+    for (const std::size_t others : {0u, 1'100u}) {
+        World world = make_world();
+        const BodyId floor = world.add(ground());
+        const BodyId box = world.add(box_at({0.0f, 0.5f, 0.0f}));
+        const BodyId top = world.add(box_at({0.0f, 1.5f, 0.0f}));
+        world.add(std::vector<BodyDefinition>(others, box_at({0.0f, 900.0f, 0.0f}, {1, 1, 1}, BodyKind::Static)));
+        world.step(5);
+        EXPECT_EQ(world.contacts().size(), 2u);
+        world.set_sensor(box, true);
+        world.step(6);
+        EXPECT_LT(world.pose(box).position.y, 0.48f) << "it falls through the ground";
+        EXPECT_LT(world.pose(top).position.y, 1.48f) << "and carries nothing";
+        for (const Contact& contact : world.contacts())
+            EXPECT_TRUE(contact.sensor) << contact.a.index << " " << contact.b.index;
+        EXPECT_TRUE(world.contains(floor));
+    }
+}
+
 TEST_P(ContactEvents, of_a_body_change_as_it_becomes_a_sensor) {
     World world = make_world();
     world.add(ground());
