@@ -5,13 +5,15 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <talus/version.h>
+
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 
 int main(int argc, char** argv) {
     using namespace talus::cli;
     CLI::App app("Rigid-body physics in OpenGL compute shaders, and the same engine on the CPU", "talus");
-    app.set_version_flag("--version", TALUS_VERSION);
+    app.set_version_flag("--version", talus::version());
     app.require_subcommand(0, 1); // with at least one asked for, CLI11 has no word for a command that there is not
     int status = k_done;
     add_demo(app, status);

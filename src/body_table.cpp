@@ -7,8 +7,8 @@
 namespace talus::engine {
 namespace {
 
-BodyShape pack_shape(const Shape& shape, BodyKind kind) {
-    const uint kind_bits = static_cast<uint>(kind) << 8;
+BodyShape pack_shape(const Shape& shape, BodyKind kind, bool sensor) {
+    const uint kind_bits = static_cast<uint>(kind) << 8 | (sensor ? k_sensor_bit : 0u);
     if (const auto* box = std::get_if<Box>(&shape)) return {to_glm(box->size) * 0.5f, k_shape_box | kind_bits};
     return {vec3(std::get<Sphere>(shape).radius), k_shape_sphere | kind_bits};
 }
@@ -94,7 +94,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
     poses[slot] = {to_glm(definition.pose.position), k_body_placed, to_glm(definition.pose.rotation)};
     velocities[slot] = {to_glm(definition.velocity.linear), rigid ? 1.0f / mass : 0.0f,
                         to_glm(definition.velocity.angular), 0.0f};
-    shapes[slot] = pack_shape(definition.shape, definition.kind);
+    shapes[slot] = pack_shape(definition.shape, definition.kind, definition.sensor);
     properties[slot] = {rigid ? 1.0f / to_glm(inertia) : vec3(0.0f),
                         velocities[slot].inverse_mass,
                         definition.gravity_scale.value_or(rigid ? 1.0f : 0.0f),
@@ -124,6 +124,10 @@ void BodyTable::remove(BodyId id) {
     --present_count;
     resting_slots.push_back(slot);
     mark(slot, k_dirty_shape | k_dirty_velocity);
+}
+
+void BodyTable::set_sensor(uint slot, bool wanted) {
+    shapes[slot].type = wanted ? shapes[slot].type | k_sensor_bit : shapes[slot].type & ~k_sensor_bit;
 }
 
 bool BodyTable::contains(BodyId id) const noexcept {

@@ -44,7 +44,11 @@ public:
     std::size_t body_count() const { return present_count; }
     bool is_present(uint slot) const { return present[slot] != 0; }
     BodyId id_of(uint slot) const { return {slot, generations[slot]}; }
-    BodyKind kind_of(uint slot) const { return static_cast<BodyKind>(shapes[slot].type >> 8); }
+    /// Also of a body that was removed, until its slot is used again.
+    BodyId last_id_of(uint slot) const { return {slot, generations[slot] - (is_present(slot) ? 0 : 1)}; }
+    BodyKind kind_of(uint slot) const { return static_cast<BodyKind>(shapes[slot].type >> 8 & 255u); }
+    void set_sensor(uint slot, bool wanted);
+    bool senses(uint slot) const { return (shapes[slot].type & k_sensor_bit) != 0; }
 
     /// Becomes a table of earlier, or another world's; all of it counts as changed. Ids that were given out since, and
     /// whose bodies are gone with it, stay invalid for ever.

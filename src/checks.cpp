@@ -158,6 +158,10 @@ void check_settings(const Settings& settings) {
     if (settings.stabilisation > Stabilisation::Baumgarte) refuse(where, "stabilisation is none of Soft and Baumgarte");
 }
 
+void check_watch(ContactWatch watch) {
+    if (watch > ContactWatch::All) refuse("watch_contacts", "the watch is none of None, Changes and All");
+}
+
 void check_options(const WorldOptions& options) {
     const std::string where = "options";
     if (options.device > DeviceKind::Hybrid) refuse(where, "device is none of Auto, Gpu, Cpu and Hybrid");

@@ -18,6 +18,7 @@ void check_material(const Material&, const std::string& where);
 /// The definition with its rotation brought to unit length.
 BodyDefinition checked_definition(const BodyDefinition&, const std::string& where);
 void check_settings(const Settings&);
+void check_watch(ContactWatch);
 void check_options(const WorldOptions&);
 std::string to_words(BodyKind);
 

@@ -91,6 +91,7 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     options.device = DeviceKind::Cpu;
     Simulation simulation(options);
     simulation.set_settings(settings);
+    simulation.watch_contacts(ContactWatch::All); // so that its kernels are compared too
     BodyTable table;
     for (std::size_t i = 0; i < definitions.size(); ++i)
         table.add(checked_definition(definitions[i], "body " + std::to_string(i) + " of the scene"));

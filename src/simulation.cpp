@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "finish/finish.h"
+#include "log.h"
 #include "parameters.h"
 #include "state/formulas.h"
 
@@ -18,6 +20,7 @@ namespace {
 constexpr uint k_first_bodies = 64;
 constexpr uint k_first_pairs = 256;
 constexpr uint k_first_colours = 8;
+constexpr uint k_first_reports = 256;
 // The ring keeps this many steps' results; one place stays free so that the newest finished step's are still there.
 constexpr std::size_t k_most_pending = k_ring_size - 1;
 // The heaviest load must not cost too much where a sub-step is launches for each colour.
@@ -44,6 +47,26 @@ constexpr std::array k_point_buffers{
     BufferId::ManifoldPoints,
 };
 
+constexpr std::array k_report_buffers{
+    BufferId::ContactImpulses,
+    BufferId::ContactStates,
+    BufferId::OldContactStates,
+};
+
+std::string what_did_not_fit(std::span<const uint> counters) {
+    const uint reasons = counters[k_counter_did_not_fit];
+    std::string what;
+    const auto add = [&](uint reason, const char* name, uint demand) {
+        if ((reasons & reason) != 0) what += fmt::format("{}{} {}", what.empty() ? "" : ", ", demand, name);
+    };
+    add(k_fit_pairs, "pairs", counters[k_counter_pair_demand]);
+    add(k_fit_colours, "colours", counters[k_counter_colour_demand]);
+    add(k_fit_substeps, "sub-steps", counters[k_counter_substep_demand]);
+    add(k_fit_hubs, "contacts of hubs", counters[k_counter_hub_manifolds]);
+    add(k_fit_reports, "contact events", counters[k_counter_report_count]);
+    return "buffers and launches grow: a step had " + what;
+}
+
 uint with_headroom(uint demand) {
     return demand + demand / 4;
 }
@@ -65,7 +88,7 @@ Simulation::Simulation(const WorldOptions& options) {
                                                     ? probes.front().why
                                                     : "OpenGL runs in software here (" + probes.front().name + ")");
     }
-    if (kind != DeviceKind::Cpu) gpu = make_gl_device(options.gl_context, options.profile);
+    if (kind != DeviceKind::Cpu) gpu = make_gl_device(options.gl_context, options.profile, options.gl_debug);
     if (kind != DeviceKind::Gpu) cpu = make_cpu_device(options.threads, options.profile);
     placement.detection = gpu ? gpu.get() : cpu.get();
     placement.resolution = cpu ? cpu.get() : gpu.get();
@@ -79,6 +102,8 @@ Simulation::Simulation(const WorldOptions& options) {
         info.threads = host.threads;
     }
 
+    log(LogLevel::Info, fmt::format("the world runs on {} ({}): {}", info.name, info.driver, why));
+
     const auto first = [](uint wanted, uint fallback) { return wanted > 0 ? wanted : fallback; };
     grow_everywhere(BufferId::Counters, k_counter_words);
     grow_everywhere(BufferId::Dispatches, k_dispatch_count);
@@ -87,6 +112,8 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::HubChanges, 1);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
+    // Reports stay within the memory of the host where the resolution runs there.
+    plan.report_room = cpu ? k_none : k_first_reports;
     plan.colour_capacity = std::min(first(options.capacities.colours, k_first_colours), k_first_hub_colour);
 }
 
@@ -123,6 +150,30 @@ void Simulation::reserve_pairs(uint count) {
     grow_everywhere(BufferId::PairTable, table_size);
     plan.pair_capacity = capacity; // only now: a buffer may have no room
     plan.table_size = table_size;
+    if (plan.watch != ContactWatch::None) reserve_reports();
+}
+
+void Simulation::reserve_reports() {
+    for (const BufferId buffer : k_report_buffers)
+        grow_everywhere(buffer, plan.pair_capacity);
+    // A step reports on a pair once, and on one of the last step's at its end.
+    grow_everywhere(BufferId::ContactReports, std::size_t{2} * plan.pair_capacity);
+}
+
+void Simulation::watch_contacts(ContactWatch wanted) {
+    settle();
+    const bool begins = plan.watch == ContactWatch::None && wanted != ContactWatch::None;
+    plan.watch = wanted;
+    if (!begins) return;
+    try {
+        reserve_reports();
+    } catch (const Error&) {
+        plan.watch = ContactWatch::None;
+        throw;
+    }
+    // What an earlier watch has left there is about other pairs.
+    const std::vector<uint> apart(plan.pair_capacity, k_contact_apart);
+    write(BufferId::OldContactStates, 0, std::span(apart));
 }
 
 void Simulation::reserve_hub_manifolds(uint count) {
@@ -131,6 +182,7 @@ void Simulation::reserve_hub_manifolds(uint count) {
 }
 
 void Simulation::write_bytes(BufferId buffer, std::size_t offset, std::span<const std::byte> bytes) {
+    TALUS_ASSERT(pending.empty(), "a buffer was to be written while steps are on their way");
     placement.resolution->write(buffer, offset, bytes);
     if (placement.hybrid()) placement.detection->write(buffer, offset, bytes);
 }
@@ -194,7 +246,8 @@ void Simulation::finish_oldest() {
     Device& device = *placement.resolution;
     device.wait(done.ticket);
     const std::span<const uint> counters = device.counters(done.ticket);
-    if (counters[k_counter_did_not_fit] != 0) {
+    const uint reasons = counters[k_counter_did_not_fit];
+    if ((reasons & ~k_fit_reports) != 0) {
         redo(counters);
         return;
     }
@@ -212,6 +265,9 @@ void Simulation::finish_oldest() {
     report.hubs = counters[k_counter_hub_count];
     report.overflow_manifolds = counters[k_counter_overflow_count];
     report.substeps = counters[k_counter_substep_demand];
+    if (counters[k_counter_frozen_bodies] > report.frozen_bodies)
+        log(LogLevel::Warning, fmt::format("step {}: {} bodies have become non-finite so far, and are frozen",
+                                           report.step, counters[k_counter_frozen_bodies]));
     report.frozen_bodies = counters[k_counter_frozen_bodies];
     report.growths = growths;
     const std::span<const double> stage_ms = device.stage_ms(done.ticket);
@@ -224,6 +280,25 @@ void Simulation::finish_oldest() {
     }
     report.step_ms = std::accumulate(report.stage_ms.begin(), report.stage_ms.end(), 0.0);
     follow_demand(counters);
+    if (plan.watch != ContactWatch::None) collect_reports(done.ticket, counters);
+    if (reasons != 0) redo(counters); // the steps behind it
+}
+
+void Simulation::collect_reports(Ticket ticket, std::span<const uint> counters) {
+    Device& device = *placement.resolution;
+    const uint count = counters[k_counter_report_count];
+    StepReports& newest = reports.emplace_back(StepReports{finished_count, {}});
+    if (count <= plan.report_room) {
+        const std::span<const ContactReport> left = device.reports(ticket);
+        TALUS_ASSERT(left.size() == count, "a contact report was lost on its way to the host");
+        newest.reports.assign(left.begin(), left.end());
+    } else { // the steps behind it have left the device's buffer as it was
+        newest.reports.resize(count);
+        device.read(
+            std::array{ReadRequest{BufferId::ContactReports, count * sizeof(ContactReport), newest.reports.data()}});
+        plan.report_room = with_headroom(count);
+    }
+    if (count == 0) reports.pop_back();
 }
 
 void Simulation::follow_demand(std::span<const uint> counters) {
@@ -255,6 +330,7 @@ void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
+    log(LogLevel::Info, what_did_not_fit(counters));
     if ((reasons & (k_fit_colours | k_fit_substeps)) != 0) follow_demand(counters);
     ++growths;
     newest_has_poses = false; // the ring goes on, and soon has no room for that frame
@@ -262,11 +338,8 @@ void Simulation::redo(std::span<const uint> counters) {
     // The steps behind it changed nothing either, but each has exchanged the manifolds with the old ones.
     const std::deque<Pending> again = std::exchange(pending, {});
     Device& device = *placement.resolution;
-    device.wait(again.back().ticket);
-    if (again.size() % 2 == 1) {
-        device.swap(BufferId::Manifolds, BufferId::OldManifolds);
-        device.swap(BufferId::ManifoldPoints, BufferId::OldManifoldPoints);
-    }
+    if (!again.empty()) device.wait(again.back().ticket);
+    if (again.size() % 2 == 1) swap_manifolds(device);
     constexpr uint fits = 0;
     device.write(BufferId::Counters, k_counter_did_not_fit * sizeof(uint), std::as_bytes(std::span(&fits, 1)));
     // Where there is no room, the error leaves the world as it was before these steps.

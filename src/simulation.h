@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <memory>
+#include <utility>
 
 #include <talus/world.h>
 
@@ -38,6 +39,8 @@ public:
     void restore(const SavedState&);
 
     void set_settings(const Settings&);
+    /// Which contact reports steps make from now on. Waits for the steps on their way.
+    void watch_contacts(ContactWatch);
     /// Enqueues a step; waits for the oldest one if too many are on their way.
     void step(const Population&, bool with_poses);
     /// Waits until every step is done, and has fitted.
@@ -58,6 +61,14 @@ public:
     /// The newest finished step's poses as they came through the ring; empty if it was not asked for them.
     std::span<const BodyPose> newest_poses() const;
 
+    /// A step's contact reports, in no particular order.
+    struct StepReports {
+        std::uint64_t step;
+        std::vector<ContactReport> reports;
+    };
+    /// Those of the finished steps since the last call.
+    std::vector<StepReports> take_reports() { return std::exchange(reports, {}); }
+
 private:
     struct Pending {
         Ticket ticket;
@@ -69,10 +80,12 @@ private:
     void enqueue(const Pending&);
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
+    void collect_reports(Ticket, std::span<const uint> counters);
     void make_room_for_pairs(uint demand);
     void redo(std::span<const uint> counters);
     void follow_demand(std::span<const uint> counters);
     void reserve_hub_manifolds(uint count);
+    void reserve_reports();
 
     std::unique_ptr<Device> gpu;
     std::unique_ptr<Device> cpu;
@@ -92,6 +105,7 @@ private:
     StepReport newest_report;
     Ticket newest_ticket = 0;
     bool newest_has_poses = false;
+    std::vector<StepReports> reports;
 };
 
 } // namespace talus::engine

@@ -26,7 +26,7 @@ void run_stage(Device& device, Stage stage, const StepPlan& plan) {
     case Stage::StoreImpulses:
         return store_impulses(device); // for the next step's warm start
     case Stage::Finish:
-        return finish(device); // new poses
+        return finish(device, plan); // contact events, new poses
     case Stage::count:
         break;
     }
@@ -38,12 +38,14 @@ Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses) {
         const Stage stage{static_cast<int>(i)};
         if (placement.hybrid() && stage == Stage::ConstraintGraph) {
             hand_over_manifolds(*placement.detection, *placement.resolution);
+            // Contact events compare with the last step's manifolds.
+            if (plan.watch != ContactWatch::None) index_old_manifolds(*placement.resolution, plan);
             placement.detection->end_step(false); // the tickets of the two devices go together
         }
         run_stage(placement.of(stage), stage, plan);
     }
     if (placement.hybrid()) hand_over_impulses(*placement.resolution, *placement.detection);
-    return placement.resolution->end_step(with_poses);
+    return placement.resolution->end_step(with_poses, plan.watch != ContactWatch::None ? plan.report_room : 0);
 }
 
 } // namespace talus::engine

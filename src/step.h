@@ -31,6 +31,8 @@ struct StepPlan {
     uint iterations = 0;
     bool relax = false;
     bool bounces = false; ///< some body has a restitution above 0
+    ContactWatch watch = ContactWatch::None;
+    uint report_room = k_none; ///< contact events that leave with the step
 
     /// Islands are found, and each has sub-steps of its own.
     bool has_islands() const { return small || !one_island; }

@@ -10,6 +10,7 @@
 
 #include "body_table.h"
 #include "checks.h"
+#include "contact_events.h"
 #include "device/gl/callers_context.h"
 #include "saved_state.h"
 #include "simulation.h"
@@ -65,6 +66,13 @@ struct World::Impl {
         // A step uses the loads up.
         std::fill_n(table.loads.begin(), count, BodyLoad{});
         table_step = simulation.step_count();
+    }
+
+    /// Makes events of what the finished steps have reported. To be called before bodies come or go: who is in which
+    /// slot is known as long as that does not change.
+    void collect_events() {
+        for (Simulation::StepReports& reports : simulation.take_reports())
+            append_events(events, reports, table);
     }
 
     /// For changing a body: its records are fresh and its change will reach the device.
@@ -149,10 +157,13 @@ struct World::Impl {
     std::uint64_t table_step = 0; ///< the step whose poses and velocities the table holds
     uint device_slots = 0;        ///< body slots that the device knows of
     bool poses_wanted = false;
+    std::vector<ContactEvent> events;        ///< that the caller has not taken yet
     std::vector<std::uint64_t> steps_before; ///< steps made before each slot's body was added
 };
 
 namespace {
+
+static_assert(GlBuffers::pair_count_word == k_counter_pair_count);
 
 std::string name_of(const char* call, BodyId id) {
     return fmt::format("{}: body {}", call, id.index);
@@ -183,6 +194,7 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
         all.push_back(checked_definition(definitions[i],
                                          definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
     impl_->refresh();
+    impl_->collect_events();
     std::vector<BodyId> ids;
     ids.reserve(all.size());
     for (const BodyDefinition& definition : all) {
@@ -196,6 +208,7 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
 void World::remove(BodyId id) {
     impl_->slot_of(id, "remove");
     impl_->refresh();
+    impl_->collect_events();
     impl_->table.remove(id);
 }
 
@@ -342,6 +355,16 @@ void World::set_material(BodyId id, const Material& material) {
     properties.combine = pack_combine(material);
 }
 
+bool World::is_sensor(BodyId id) const {
+    return impl_->table.senses(impl_->slot_of(id, "is_sensor"));
+}
+
+void World::set_sensor(BodyId id, bool wanted) {
+    const uint slot = impl_->slot_of(id, "set_sensor");
+    impl_->touch(slot, k_dirty_shape);
+    impl_->table.set_sensor(slot, wanted);
+}
+
 // ---- time ----
 
 void World::step(std::uint32_t count) {
@@ -386,8 +409,9 @@ std::vector<Contact> World::contacts() const {
         Contact contact{impl_->table.id_of(manifold.body_a),
                         impl_->table.id_of(manifold.body_b),
                         from_glm(manifold.normal),
-                        {},
-                        manifold.colour};
+                         manifold.colour == k_inactive_colour,
+                         {},
+                         manifold.colour};
         for (std::size_t k = 4 * i; k < 4 * i + manifold.point_count; ++k)
             contact.points.push_back(
                 {from_glm(records.points[k].position), records.points[k].separation, records.impulses[k]});
@@ -425,6 +449,29 @@ std::uint64_t World::state_hash() const {
     }
     return hash;
 }
+
+// ---- contact events ----
+
+void World::watch_contacts(ContactWatch watch) {
+    check_watch(watch);
+    const CallersContext callers(impl_->own_context);
+    impl_->simulation.watch_contacts(watch);
+}
+
+std::vector<ContactEvent> World::take_contact_events() {
+    wait();
+    impl_->collect_events();
+    return std::exchange(impl_->events, {});
+}
+
+std::vector<ContactEvent> World::take_finished_contact_events() {
+    const CallersContext callers(impl_->own_context);
+    impl_->simulation.poll();
+    impl_->collect_events();
+    return std::exchange(impl_->events, {});
+}
+
+// ---- results without waiting ----
 
 void World::keep_poses_coming(bool wanted) {
     impl_->poses_wanted = wanted;

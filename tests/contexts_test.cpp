@@ -15,6 +15,7 @@
 #include "device/gl/gl_context.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
+#include "tests/gl_state.h"
 
 namespace talus::tests {
 namespace {
@@ -68,7 +69,9 @@ bool nothing_is_current() {
 class Contexts : public OnDevice {
 protected:
     void build() {
-        world.emplace(make_world());
+        WorldOptions options = options_on(GetParam());
+        options.gl_context = gl_context;
+        world.emplace(Settings{}, options);
         world->add(ground());
         box = world->add(box_at({0.0f, 0.5f, 0.0f}));
     }
@@ -130,6 +133,11 @@ protected:
             {"memory", [this] { world->memory(); }},
             {"gl_buffers", [this] { world->gl_buffers(); }},
             {"a call that is refused", [this] { error_of([this] { world->step(), world->pose({}); }); }},
+            {"set_sensor", [this] { world->set_sensor(box, true); }},
+            {"watch_contacts", [this] { world->watch_contacts(ContactWatch::All); }},
+            {"step with events", [this] { world->step(3); }},
+            {"take_finished_contact_events", [this] { world->take_finished_contact_events(); }},
+            {"take_contact_events", [this] { world->take_contact_events(); }},
             {"remove", [this] { world->remove(box); }},
             {"operator=", [this] { *world = make_world(); }},
             {"list_devices", [] { list_devices(); }},
@@ -137,6 +145,7 @@ protected:
         };
     }
 
+    GlContext gl_context = GlContext::Own;
     std::optional<World> world;
     BodyId box;
 };
@@ -178,6 +187,33 @@ TEST_P(Contexts, of_a_world_stay_where_they_are_asked_for) {
     world->make_gl_current();
     world.reset();
     EXPECT_TRUE(nothing_is_current());
+}
+
+TEST_P(Contexts, of_the_caller_keep_all_their_state) {
+    const Renderer renderer;
+    set_unusual_gl_state();
+    ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    const GlState before = gl_state();
+    gl_context = GlContext::Current;
+    for (const auto& [name, call] : calls()) {
+        if (name == "operator=") continue; // it makes a world in a context of its own
+        if (world) world->step();
+        call();
+        ASSERT_EQ(gl_state(), before) << name;
+        ASSERT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)) << name;
+    }
+}
+
+TEST_P(Contexts, of_the_caller_must_be_current) {
+    const Renderer renderer;
+    gl_context = GlContext::Current;
+    build();
+    world->step(2);
+    std::string refusal;
+    std::thread([&] { refusal = error_of([this] { world->step(); }); }).join();
+    EXPECT_NE(refusal.find("make it current before each call"), std::string::npos) << refusal;
+    EXPECT_EQ(error_of([this] { world->step(); }), "no error");
+    world.reset();
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, Contexts, testing::Values(DeviceKind::Gpu, DeviceKind::Hybrid),

@@ -66,6 +66,16 @@ TEST(ParityOfMixedBodies, holds_for_spheres_spin_bounces_and_the_other_settings)
     }
 }
 
+TEST(ParityOfMixedBodies, holds_for_sensors) {
+    TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
+    std::vector<BodyDefinition> bodies = mixed_bodies();
+    for (std::size_t i = 5; i < bodies.size(); i += 5)
+        bodies[i].sensor = true;
+    bodies.push_back(box_at({2.0f, 1.0f, 0.0f}, {4.0f, 2.0f, 4.0f}, BodyKind::Static));
+    bodies.back().sensor = true;
+    expect_parity(engine::compare_devices(bodies, {}, 30));
+}
+
 TEST(ParityOfMixedBodies, holds_where_colours_run_out) {
     TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
     expect_parity(engine::compare_devices(plate_of(9), {}, 5));

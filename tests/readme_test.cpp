@@ -3,8 +3,6 @@
 // README.md says; the commands exist, the links and the named files are there, and docs/architecture.md has the stages
 // in run order.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -20,8 +18,12 @@
 #include <talus/world.h>
 
 #include "scenes/scene.h"
+#include "tests/shell.h"
 
 namespace {
+
+using talus::tests::run_in_shell;
+using talus::tests::ShellEnding;
 
 namespace fs = std::filesystem;
 
@@ -62,19 +64,17 @@ std::vector<std::string> blocks_of(const std::string& text, const std::string& l
     return blocks;
 }
 
-struct Ending {
-    int status;
-    std::string output;
-};
-
-Ending run(const std::string& command) {
-    std::FILE* pipe = popen((command + " 2>&1 </dev/null").c_str(), "r");
-    if (pipe == nullptr) return {-1, "cannot be started"};
-    std::string output;
-    std::array<char, 4096> part;
-    while (const std::size_t count = std::fread(part.data(), 1, part.size(), pipe))
-        output.append(part.data(), count);
-    return {pclose(pipe), output};
+/// The text without its code blocks.
+std::string prose_of(const std::string& text) {
+    std::string prose;
+    bool inside = false;
+    for (const std::string& line : lines_of(text)) {
+        if (line.starts_with("```"))
+            inside = !inside;
+        else if (!inside)
+            prose += line + '\n';
+    }
+    return prose;
 }
 
 std::vector<fs::path> documents() {
@@ -114,7 +114,7 @@ TEST(Readme, first_program_is_the_example) {
 }
 
 TEST(Readme, first_program_prints_what_stands_there) {
-    const Ending ending = run("'" TALUS_README_PROGRAM_FILE "'");
+    const ShellEnding ending = run_in_shell("'" TALUS_README_PROGRAM_FILE "'");
     EXPECT_EQ(ending.status, 0);
     EXPECT_EQ(ending.output, blocks_of(text_of(k_root / "README.md"), "text").at(0));
 }
@@ -135,7 +135,7 @@ TEST(Readme, first_program_builds_as_it_says) {
     // The compiler that built this test, and with it a compiler cache where there is one.
     setenv("CXX", TALUS_COMPILER, 1);
     setenv("CMAKE_CXX_COMPILER_LAUNCHER", TALUS_COMPILER_LAUNCHER, 1);
-    const Ending ending = run("cd '" + folder.string() + "' && sh -e script");
+    const ShellEnding ending = run_in_shell("cd '" + folder.string() + "' && sh -e script");
     EXPECT_EQ(ending.status, 0) << ending.output;
     EXPECT_TRUE(ending.output.ends_with("\n" + blocks_of(readme, "text").at(0))) << ending.output;
     fs::remove_all(folder);
@@ -152,7 +152,7 @@ TEST(Readme, commands_of_the_program_exist) {
             EXPECT_NE(launcher.find("== test ]]"), std::string::npos);
             continue;
         }
-        const Ending help = run("'" TALUS_PROGRAM_FILE "' " + command + " --help");
+        const ShellEnding help = run_in_shell("'" TALUS_PROGRAM_FILE "' " + command + " --help");
         EXPECT_EQ(help.status, 0) << command << ": " << help.output;
         for (const std::string& word : words) {
             if (!word.starts_with("--")) continue;
@@ -179,7 +179,7 @@ TEST(Readme, cmake_presets_exist) {
 TEST(Documents, links_lead_to_files) {
     const std::regex link(R"(\]\(([^)#]+)(#[^)]*)?\))");
     for (const fs::path& document : documents()) {
-        const std::string text = text_of(document);
+        const std::string text = prose_of(text_of(document));
         for (std::sregex_iterator found(text.begin(), text.end(), link), end; found != end; ++found) {
             const std::string target = (*found)[1];
             if (target.find("://") != std::string::npos) continue;

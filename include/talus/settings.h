@@ -26,12 +26,14 @@ enum class GlContext : std::uint32_t {
     Current, ///< the caller's, current on the calling thread now and in every later call on the world
 };
 
+/// How the broad phase finds pairs.
 enum class BroadPhase : std::uint32_t {
     SweepAndPrune, ///< sort along the axis of largest spread, then sweep (thesis, section 3.2)
     Bvh,           ///< sort along a Hilbert curve, then search a tree of bounding boxes over that order
     Brute,         ///< every pair (thesis, algorithm 1): the oracle
 };
 
+/// How overlap is undone.
 enum class Stabilisation : std::uint32_t {
     Soft,      ///< sub-steps with soft contacts and a relax pass
     Baumgarte, ///< one step, many iterations, velocity bias β/Δt · d (thesis, equation 3.17)
@@ -45,10 +47,10 @@ enum class SolveOrder : std::uint32_t {
 
 /// What may change while a world runs.
 struct Settings {
-    Vec3 gravity{0.0f, -9.81f, 0.0f}; ///< m/s²
-    float dt = 1.0f / 60.0f;          ///< s, the length of one step
-    Stabilisation stabilisation = Stabilisation::Soft;
-    std::uint32_t substeps = 8;         ///< soft: sub-steps a step, at least; not used by Baumgarte
+    Vec3 gravity{0.0f, -9.81f, 0.0f};                  ///< m/s²
+    float dt = 1.0f / 60.0f;                           ///< s, the length of one step
+    Stabilisation stabilisation = Stabilisation::Soft; ///< how overlap is undone
+    std::uint32_t substeps = 8;                        ///< soft: sub-steps a step, at least; not used by Baumgarte
     std::uint32_t max_substeps = 128;   ///< soft: the most that an island gets whose bodies carry heavy loads
     std::uint32_t iterations = 1;       ///< solver passes: a sub-step (soft) or a step (Baumgarte; set about 10 there)
     float contact_hertz = 1000.0f;      ///< soft: stiffness of a contact, Hz; capped at an eighth of the sub-step rate
@@ -58,8 +60,8 @@ struct Settings {
     float restitution_threshold = 1.0f; ///< m/s; slower impacts do not bounce
     float max_linear_speed = 500.0f;    ///< m/s; bodies are held to it
     float max_angular_speed = 200.0f;   ///< rad/s
-    BroadPhase broad_phase = BroadPhase::SweepAndPrune;
-    SolveOrder solve_order = SolveOrder::Coloured;
+    BroadPhase broad_phase = BroadPhase::SweepAndPrune; ///< how pairs are found
+    SolveOrder solve_order = SolveOrder::Coloured;      ///< in what order contacts are solved
     std::uint32_t hub_contacts = 1000; ///< a body with more is solved by shares: fast, but few may not carry it
 };
 
@@ -71,13 +73,24 @@ struct Capacities {
     std::uint32_t colours = 0; ///< at most 64; two of them are for hubs and are always there
 };
 
+/// Which contact events a world collects.
+enum class ContactWatch : std::uint32_t {
+    None,    ///< none, which costs nothing
+    Changes, ///< begins and ends
+    All,     ///< also, in each step, every contact that persists
+};
+
 /// What is fixed when a world is made.
 struct WorldOptions {
-    DeviceKind device = DeviceKind::Auto;
-    GlContext gl_context = GlContext::Own;
-    std::uint32_t threads = 0; ///< of the CPU device; 0: as many as the machine has
-    bool profile = false;      ///< measure every stage (see StepReport::stage_ms); costs a little time
-    Capacities capacities;
+    DeviceKind device = DeviceKind::Auto;  ///< where the step runs
+    GlContext gl_context = GlContext::Own; ///< which context the GPU is used through
+    std::uint32_t threads = 0;             ///< of the CPU device; 0: as many as the machine has
+    bool profile = false;                  ///< measure every stage (see StepReport::stage_ms); costs a little time
+    /// A debug context where it is Talus's own: the driver's messages go to the log, with the stage that they come
+    /// from. The environment variable TALUS_GL_DEBUG=1 asks for it too. In the caller's context they go where the
+    /// caller sends them; the stages are debug groups there.
+    bool gl_debug = false;
+    Capacities capacities; ///< how large buffers are at first
 };
 
 } // namespace talus

@@ -2,8 +2,11 @@
 // The whole public API.
 #pragma once
 
+#include <talus/debug_draw.h>
+#include <talus/log.h>
 #include <talus/recording.h>
 #include <talus/settings.h>
 #include <talus/snapshot.h>
 #include <talus/types.h>
+#include <talus/version.h>
 #include <talus/world.h>

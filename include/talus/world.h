@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <talus/export.h>
 #include <talus/settings.h>
 #include <talus/snapshot.h>
 #include <talus/types.h>
@@ -14,9 +15,9 @@ namespace talus {
 
 /// Counts and times of one finished step.
 struct StepReport {
-    std::uint64_t step = 0; ///< how many steps the world had made with this one
-    std::uint32_t pairs = 0;
-    std::uint32_t manifolds = 0;
+    std::uint64_t step = 0;               ///< how many steps the world had made with this one
+    std::uint32_t pairs = 0;              ///< of bodies whose bounding boxes overlap
+    std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors
     std::uint32_t contacts = 0;           ///< contact points
     std::uint32_t colours = 0;            ///< batches of the constraint graph
     std::uint32_t substeps = 0;           ///< most that an island had
@@ -40,26 +41,26 @@ struct DeviceInfo {
 
 /// Bytes that the world holds now.
 struct MemoryUse {
-    std::uint64_t device = 0;
-    std::uint64_t host = 0;
+    std::uint64_t device = 0; ///< in the buffers of the device or devices
+    std::uint64_t host = 0;   ///< in the table of bodies
 };
 
-/// OpenGL names of the buffers to draw from, without a copy. Valid until the next call that changes the world.
-/// Poses: 32 bytes a body: vec3 position, uint flags, vec4 rotation (x, y, z, w).
-/// Shapes: 16 bytes a body: vec3 half extents, uint word with the shape in bits 0–7 (0 box, 1 sphere) and the body's
-/// kind in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here).
-/// Pairs: 8 bytes a pair: uint body a, uint body b; their number is the word `pair_count_word` of Counters.
-/// Manifolds: see src/state/records.shared.glsl.
+/// OpenGL names of the buffers to draw from, without a copy. Valid until the next call that changes the world. Numbers
+/// are little-endian words of 32 bits.
 struct GlBuffers {
-    std::uint32_t poses = 0;
+    std::uint32_t poses = 0; ///< 32 bytes a body: vec3 position (m), uint flags, vec4 rotation (x, y, z, w)
+    /// 16 bytes a body: vec3 half extents (m), uint word with the shape in bits 0–7 (0 box, 1 sphere), the body's kind
+    /// in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here), and bit 16 set for a sensor.
     std::uint32_t shapes = 0;
-    std::uint32_t aabbs = 0; ///< 32 bytes a body: vec3 lower, float, vec3 upper, float
+    std::uint32_t aabbs = 0; ///< 32 bytes a body: vec3 lower (m), float, vec3 upper (m), float
+    /// 8 bytes a pair: uint body a, uint body b; their number is the word `pair_count_word` of `counters`.
     std::uint32_t pairs = 0;
-    std::uint32_t manifolds = 0;
-    std::uint32_t contact_points = 0;
-    std::uint32_t counters = 0;
-    std::uint32_t body_capacity = 0; ///< instances to draw; unused ones have the kind 255
-    std::uint32_t pair_capacity = 0;
+    std::uint32_t manifolds = 0;      ///< 64 bytes a pair, see Manifold in src/state/records.shared.glsl
+    std::uint32_t contact_points = 0; ///< four of 48 bytes a pair, see ManifoldPoint in the same file
+    std::uint32_t counters = 0;       ///< words, see k_counter_* in src/state/constants.shared.glsl
+    std::uint32_t body_capacity = 0;  ///< instances to draw; unused ones have the kind 255
+    std::uint32_t pair_capacity = 0;  ///< pairs of the last step
+    static constexpr std::uint32_t pair_count_word = 2; ///< of `counters`
 };
 
 /// A world of bodies. Calls may come from several threads, one at a time: whoever lets two of them overlap has to lock.
@@ -67,12 +68,15 @@ struct GlBuffers {
 ///
 /// `step` on a GPU returns before the GPU has finished; several steps may be on their way. Calls that read results, and
 /// calls that change the world, wait for them first.
-class World {
+class TALUS_API World {
 public:
     /// Throws Error where the device cannot be had; the message lists what was tried.
     explicit World(const Settings& settings = {}, const WorldOptions& options = {});
+    /// Waits for the steps on their way.
     ~World();
+    /// The world that was moved from is good for nothing but its destructor and being assigned to.
     World(World&&) noexcept;
+    /// The world that was here before goes.
     World& operator=(World&&) noexcept;
 
     // ---- bodies ----
@@ -81,43 +85,70 @@ public:
     BodyId add(const BodyDefinition&);
     /// All or none: an error leaves the world as it was and names the position in the list.
     std::vector<BodyId> add(std::span<const BodyDefinition>);
+    /// The body's contacts end with the next step. Throws Error where there is no such body, as all calls below do that
+    /// name one.
     void remove(BodyId);
+    /// Whether there is such a body. Never throws.
     bool contains(BodyId) const noexcept;
+    /// How many bodies there are.
     std::size_t body_count() const noexcept;
     /// The bodies that are there, in the order of their index.
     std::vector<BodyId> bodies() const;
+    /// As the body's definition said.
     BodyKind kind(BodyId) const;
+    /// As the body's definition said.
     Shape shape(BodyId) const;
     float mass(BodyId) const;   ///< kg; infinity for static and kinematic bodies
     Vec3 inertia(BodyId) const; ///< principal moments, kg·m²
 
+    /// After the last step; waits for it.
     Pose pose(BodyId) const;
+    /// Puts a body elsewhere, without a way between. Throws Error for a non-finite or too large coordinate, or a
+    /// rotation that is no unit quaternion.
     void set_pose(BodyId, const Pose&);
+    /// After the last step; waits for it.
     Velocity velocity(BodyId) const;
+    /// Throws Error for a non-finite number, and for a static body.
     void set_velocity(BodyId, const Velocity&);
-    /// In the order of `bodies()`.
+    /// In the order of `bodies()`; waits for the last step.
     std::vector<Pose> poses() const;
+    /// In the order of `bodies()`; waits for the last step.
     std::vector<Velocity> velocities() const;
 
-    /// N, at the centre of mass or at a point in world space; acts during the next step, adds up until then.
+    /// N, at the centre of mass; acts during the next step, adds up until then. Throws Error for a body that is not
+    /// rigid, as all of these do.
     void add_force(BodyId, Vec3 force);
+    /// N, at a point in world space (m): turns the body too.
     void add_force(BodyId, Vec3 force, Vec3 point);
-    void add_torque(BodyId, Vec3 torque); ///< N·m
-    /// N·s; changes the velocity at once.
+    void add_torque(BodyId, Vec3 torque); ///< N·m; acts during the next step, adds up until then
+    /// N·s, at the centre of mass; changes the velocity at once.
     void add_impulse(BodyId, Vec3 impulse);
+    /// N·s, at a point in world space (m): turns the body too.
     void add_impulse(BodyId, Vec3 impulse, Vec3 point);
-    void add_angular_impulse(BodyId, Vec3 impulse); ///< N·m·s
+    void add_angular_impulse(BodyId, Vec3 impulse); ///< N·m·s; changes the angular velocity at once
 
+    /// Factor on the world's gravity.
     float gravity_scale(BodyId) const;
+    /// Throws Error for a non-finite number.
     void set_gravity_scale(BodyId, float);
+    /// As the definition or `set_material` said.
     Material material(BodyId) const;
+    /// Acts from the next step on. Throws Error for a value that is not allowed.
     void set_material(BodyId, const Material&);
+    /// As the definition or `set_sensor` said.
+    bool is_sensor(BodyId) const;
+    /// A sensor reports what it touches, and neither pushes nor is pushed by it. Sensors do not see each other, and two
+    /// bodies of which neither moves report nothing. What crosses a sensor within a single step may pass unseen.
+    void set_sensor(BodyId, bool);
 
     // ---- time ----
 
+    /// Makes `count` steps of Settings::dt each. Returns before a GPU has finished them. Throws Error where there is no
+    /// memory for the buffers that the steps need; the world is then as it was before the first that did not fit.
     void step(std::uint32_t count = 1);
     /// Waits until every step that was asked for is done.
     void wait() const;
+    /// How many steps were asked for since the world was made.
     std::uint64_t step_count() const noexcept;
 
     /// The world as it is now, waiting for its last step. On a GPU it is copied to the host.
@@ -133,29 +164,47 @@ public:
 
     std::vector<CollisionPair> collision_pairs() const; ///< sorted by index
     std::vector<Contact> contacts() const;              ///< sorted by index
+    /// Counts and times.
     StepReport report() const;
     /// 64-bit hash of all poses and velocities in the order of `bodies()`: equal where the bits are equal.
     std::uint64_t state_hash() const;
 
+    // ---- contact events ----
+
+    /// Which events the steps from now on collect; None at first. The first step after None reports all contacts that
+    /// it finds as begun. Waits for the steps on their way.
+    void watch_contacts(ContactWatch);
+    /// All events since the last call of either function, in the order of steps, and in each step of the bodies'
+    /// indices. Waits for the last step. None is ever left out; until they are taken they stay in the host's memory.
+    std::vector<ContactEvent> take_contact_events();
+    /// The same without waiting: those of the steps that are finished by now.
+    std::vector<ContactEvent> take_finished_contact_events();
+
     // ---- results without waiting ----
 
-    /// The newest finished step's poses as they left through the ring of mapped buffers, and the number of that step;
-    /// empty before the first one arrives, and again while a step is done anew with larger buffers.
-    /// `keep_poses_coming(true)` turns the ring on.
+    /// A finished step's poses, as they left through the ring of mapped buffers.
     struct PoseFrame {
-        std::uint64_t step = 0;
+        std::uint64_t step = 0;     ///< which step's, as step_count() counts
         std::vector<BodyId> bodies; ///< those that were there in that step and still are
         std::vector<Pose> poses;    ///< one each
     };
+    /// Whether the steps from now on send their poses; not at first.
     void keep_poses_coming(bool);
+    /// Those of the newest finished step; empty before the first one arrives, and again while a step is done anew with
+    /// larger buffers.
     PoseFrame newest_poses() const;
 
     // ---- the rest ----
 
+    /// As they were given last.
     const Settings& settings() const noexcept;
+    /// For the steps from now on. Throws Error for a value that is not allowed.
     void set_settings(const Settings&);
+    /// What the world runs on.
     const DeviceInfo& device() const noexcept;
+    /// Grows with the number of bodies and pairs.
     MemoryUse memory() const noexcept;
+    /// The names are good until the next call that changes the world or makes a step. Waits for the last step.
     /// Throws Error on the CPU device, which has none.
     GlBuffers gl_buffers() const;
     /// Makes the world's own OpenGL context current on this thread (GPU and hybrid), for drawing from its buffers. It
@@ -169,9 +218,9 @@ private:
 };
 
 /// The stages of a step in run order: the rows of StepReport::stage_ms.
-std::span<const char* const> stage_names() noexcept;
+TALUS_API std::span<const char* const> stage_names() noexcept;
 
 /// Every device that a world could run on here, and those that cannot be used with the reason in `why`.
-std::vector<DeviceInfo> list_devices();
+TALUS_API std::vector<DeviceInfo> list_devices();
 
 } // namespace talus

@@ -9,10 +9,12 @@ inline float contact_margin(BodyVelocity velocity, Parameters p)
     return margin;
 }
 
-inline bool is_present(BodyShape shape) { return (shape.type >> 8) != k_kind_absent; }
-inline bool is_movable(BodyShape shape) { return (shape.type >> 8) == k_kind_rigid; } // contacts push it
+inline uint kind_of(BodyShape shape) { return (shape.type >> 8) & 255u; }
+inline bool is_present(BodyShape shape) { return kind_of(shape) != k_kind_absent; }
+inline bool is_movable(BodyShape shape) { return kind_of(shape) == k_kind_rigid; } // contacts push it
+inline bool is_sensor(BodyShape shape) { return (shape.type & k_sensor_bit) != 0u; }
 inline bool is_sphere(BodyShape shape) { return (shape.type & 255u) == k_shape_sphere; }
-inline bool is_mover(BodyShape shape) { return is_movable(shape) || (shape.type >> 8) == k_kind_kinematic; }
+inline bool is_mover(BodyShape shape) { return is_movable(shape) || kind_of(shape) == k_kind_kinematic; }
 
 // Whether a body is where the caller has just put it. One that never moves is there anyway.
 inline bool is_placed(BodyPose pose, BodyShape shape)
@@ -37,7 +39,7 @@ inline Aabb compute_aabb(BodyPose pose, BodyVelocity velocity, BodyShape shape, 
     box.lower = lower;
     box.upper = upper;
     box.margin = margin;
-    box.movable = is_movable(shape) ? 1u : 0u;
+    box.movable = is_movable(shape) || is_sensor(shape) ? 1u : 0u; // sensors see bodies that nothing pushes too
     if (!is_present(shape)) { // overlaps nothing
         box.lower = vec3(3.0e38f, 3.0e38f, 3.0e38f);
         box.upper = vec3(-3.0e38f, -3.0e38f, -3.0e38f);

@@ -107,14 +107,15 @@ public:
 
     /// Marks the start of a stage for profilers and debuggers; the one before it ends.
     virtual void begin_stage(Stage) = 0;
-    /// Ends a step: its counters, and the poses if asked for, leave for the host. Waits only if k_ring_size steps are
-    /// on their way already.
-    virtual Ticket end_step(bool with_poses) = 0;
+    /// Ends a step: its counters, the poses if asked for, and at most `report_room` of its contact reports leave for
+    /// the host. Waits only if k_ring_size steps are on their way already.
+    virtual Ticket end_step(bool with_poses, uint report_room = 0) = 0;
     virtual bool finished(Ticket) const = 0;
     virtual void wait(Ticket) = 0;
     /// Of a finished ticket that is among the last k_ring_size.
     virtual std::span<const uint> counters(Ticket) const = 0;
     virtual std::span<const BodyPose> poses(Ticket) const = 0;
+    virtual std::span<const ContactReport> reports(Ticket) const = 0;
     /// Milliseconds of each stage of a finished step; empty where profiling is off.
     virtual std::span<const double> stage_ms(Ticket) const = 0;
 
@@ -127,7 +128,7 @@ public:
 
 /// Both throw talus::Error.
 std::unique_ptr<Device> make_cpu_device(std::uint32_t threads, bool profile);
-std::unique_ptr<Device> make_gl_device(GlContext, bool profile);
+std::unique_ptr<Device> make_gl_device(GlContext, bool profile, bool debug = false);
 
 /// The GPUs that there are: first the one that make_gl_device(GlContext::Own) would take, last those that cannot be
 /// used, with an empty name and the reason in `why`.

@@ -2,12 +2,27 @@
 // The launches that end a step, in order.
 #include "finish/finish.h"
 
+#include "step.h"
+
 namespace talus::engine {
 
-void finish(Device& device) {
+static void report_events(Device& device, const StepPlan& plan) {
+    const uint persisting = plan.watch == ContactWatch::All ? 1 : 0;
+    device.run({.kernel = gather_contact_impulses, .slot = k_dispatch_manifolds});
+    device.run({.kernel = report_contacts, .slot = k_dispatch_reports, .args = {persisting, plan.report_room}});
+    device.run({.kernel = report_contact_ends, .slot = k_dispatch_report_ends, .args = {persisting, plan.report_room}});
+}
+
+void finish(Device& device, const StepPlan& plan) {
+    if (plan.watch != ContactWatch::None) report_events(device, plan);
     device.run({.kernel = finish_bodies, .slot = k_dispatch_bodies});
+    swap_manifolds(device);
+}
+
+void swap_manifolds(Device& device) {
     device.swap(BufferId::Manifolds, BufferId::OldManifolds);
     device.swap(BufferId::ManifoldPoints, BufferId::OldManifoldPoints);
+    device.swap(BufferId::ContactStates, BufferId::OldContactStates);
 }
 
 } // namespace talus::engine

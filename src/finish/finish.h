@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Finish: poses move on, and the step's results become the last step's.
+// Finish: contact events are reported, poses move on, and the step's results become the last step's.
 #pragma once
 
 #include "device/device.h"
 
 namespace talus::engine {
 
-/// Manifolds and OldManifolds change places (and their points), also where the step did not fit.
-void finish(Device&);
+struct StepPlan;
 
-extern const Kernel finish_bodies;
+/// Swaps the manifolds at its end, also where the step did not fit.
+void finish(Device&, const StepPlan&);
+/// Manifolds, their points and the states of contacts change places with the old ones.
+void swap_manifolds(Device&);
+
+extern const Kernel gather_contact_impulses, report_contacts, report_contact_ends, finish_bodies;
 
 } // namespace talus::engine

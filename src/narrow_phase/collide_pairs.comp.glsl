@@ -30,18 +30,7 @@ layout(std430) readonly buffer OldManifoldPoints { ManifoldPointCells old_manifo
 layout(std430) writeonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 
-// The last step's manifold of a pair, or k_none.
-uint find_old_manifold(Pair pair)
-{
-    uint slot = hash_pair(pair.body_a, pair.body_b) & (parameters.table_size - 1u);
-    while (true) {
-        uint old = pair_table[slot];
-        if (old == k_none) return k_none;
-        if (unpack(old_manifolds[old]).body_a == pair.body_a && unpack(old_manifolds[old]).body_b == pair.body_b) return old;
-        slot = (slot + 1u) & (parameters.table_size - 1u);
-    }
-    return k_none;
-}
+#include "narrow_phase/find_old_manifold.glsl"
 
 Carriers read_carriers(uint old_index)
 {
@@ -73,7 +62,7 @@ void main()
     uint pair_index = item_index();
     if (pair_index >= counters[k_counter_pair_count]) return;
     Pair pair = pairs[pair_index];
-    uint old_index = find_old_manifold(pair);
+    uint old_index = find_old_manifold(pair.body_a, pair.body_b);
     Carriers carriers = no_carriers();
     if (old_index != k_none) carriers = read_carriers(old_index);
 
@@ -84,6 +73,8 @@ void main()
     precise float max_separation = parameters.speculative_distance + length3(motion);
     ContactGeometry g = collide_moving_shapes(pose_a, unpack(shapes[pair.body_a]), pose_b, unpack(shapes[pair.body_b]), motion,
                                               carriers, max_separation);
+    bool sensed = is_sensed(unpack(shapes[pair.body_a]), unpack(shapes[pair.body_b]));
+    if (sensed && !can_meet(unpack(shapes[pair.body_a]), unpack(shapes[pair.body_b]))) g.count = 0u;
 
     // The rest of the last manifold is read here, as registers are short in the collision.
     Manifold manifold = make_manifold(pair, g, unpack(properties[pair.body_a]), unpack(properties[pair.body_b]));
@@ -94,11 +85,13 @@ void main()
     } else if (is_placed(pose_a, unpack(shapes[pair.body_a])) && is_placed(pose_b, unpack(shapes[pair.body_b]))) {
         manifold = begin_trial(manifold, parameters);
     }
+    if (sensed) manifold = make_sensed(manifold);
     manifolds[pair_index] = pack(manifold);
     for (uint i = 0u; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, pose_a.position, offset, i);
         uint old_point = match.old_index[i];
-        if (old_point != k_none) point.normal_impulse = unpack(old_manifold_points[4u * old_index + old_point]).normal_impulse;
+        if (old_point != k_none && !sensed)
+            point.normal_impulse = unpack(old_manifold_points[4u * old_index + old_point]).normal_impulse;
         manifold_points[4u * pair_index + i] = pack(point);
     }
 }

@@ -2,21 +2,11 @@
 // CPU twin of collide_pairs.comp.glsl.
 #include "device/cpu/cpu_state.h"
 #include "narrow_phase/narrow_phase.h"
+#include "narrow_phase/pair_table.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
 namespace {
-
-/// The last step's manifold of a pair, or k_none.
-uint find_old_manifold(const CpuState& state, Pair pair) {
-    const uint mask = state.parameters.table_size - 1;
-    for (uint slot = hash_pair(pair.body_a, pair.body_b) & mask;; slot = (slot + 1) & mask) {
-        const uint old = state.pair_table[slot];
-        if (old == k_none) return k_none;
-        const Manifold& manifold = state.old_manifolds[old];
-        if (manifold.body_a == pair.body_a && manifold.body_b == pair.body_b) return old;
-    }
-}
 
 Carriers read_carriers(const CpuState& state, uint old_index) {
     const Manifold& manifold = state.old_manifolds[old_index];
@@ -43,7 +33,7 @@ OldPoints read_old_points(const CpuState& state, uint old_index) {
 
 void collide_pair(CpuState& state, uint pair_index) {
     const Pair pair = state.pairs[pair_index];
-    const uint old_index = find_old_manifold(state, pair);
+    const uint old_index = find_old_manifold(state, pair.body_a, pair.body_b);
     const Carriers carriers = old_index != k_none ? read_carriers(state, old_index) : no_carriers();
 
     const BodyPose& pose_a = state.poses[pair.body_a];
@@ -52,8 +42,10 @@ void collide_pair(CpuState& state, uint pair_index) {
     const vec3 motion =
         (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
     const float max_separation = state.parameters.speculative_distance + length3(motion);
-    const ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b,
-                                                    state.shapes[pair.body_b], motion, carriers, max_separation);
+    ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b],
+                                              motion, carriers, max_separation);
+    const bool sensed = is_sensed(state.shapes[pair.body_a], state.shapes[pair.body_b]);
+    if (sensed && !can_meet(state.shapes[pair.body_a], state.shapes[pair.body_b])) g.count = 0;
 
     Manifold manifold = make_manifold(pair, g, state.properties[pair.body_a], state.properties[pair.body_b]);
     PointMatch match = no_match();
@@ -63,11 +55,12 @@ void collide_pair(CpuState& state, uint pair_index) {
     } else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b])) {
         manifold = begin_trial(manifold, state.parameters);
     }
+    if (sensed) manifold = make_sensed(manifold);
     state.manifolds[pair_index] = manifold;
     for (uint i = 0; i < g.count; ++i) {
         ManifoldPoint point = make_point(g, pose_a.position, offset, i);
         const uint old_point = match.old_index[i];
-        if (old_point != k_none)
+        if (old_point != k_none && !sensed)
             point.normal_impulse = state.old_manifold_points[std::size_t{4} * old_index + old_point].normal_impulse;
         state.manifold_points[std::size_t{4} * pair_index + i] = point;
     }

@@ -53,6 +53,30 @@ inline float combine_restitution(BodyProperties a, BodyProperties b)
     return combine(a.restitution, b.restitution, a.combine >> 8, b.combine >> 8);
 }
 
+// ---- sensors: they report what they touch, and push nothing ----
+
+inline bool is_sensed(BodyShape a, BodyShape b) { return is_sensor(a) || is_sensor(b); }
+
+// Sensors do not see each other, and nothing is seen where neither body moves.
+inline bool can_meet(BodyShape a, BodyShape b)
+{
+    return !(is_sensor(a) && is_sensor(b)) && (is_mover(a) || is_mover(b));
+}
+
+// A manifold that the solver leaves alone.
+inline Manifold make_sensed(Manifold manifold)
+{
+    Manifold sensed = manifold;
+    sensed.colour = k_inactive_colour;
+    sensed.tangent_impulse_1 = 0.0f;
+    sensed.tangent_impulse_2 = 0.0f;
+    sensed.twist_impulse = 0.0f;
+    sensed.weights = 0.0f;
+    sensed.substeps = 0u;
+    sensed.idle_steps = 0u;
+    return sensed;
+}
+
 // ---- warm start: what the last step's points pass on ----
 
 // A point without a namesake takes the old point nearest to it, if there is one within this distance (m): feature ids
@@ -158,7 +182,7 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, BodyProperties a, Bo
 // tangents of two normals that are nearly the same may lie far apart.
 inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)
 {
-    manifold.colour = old.colour;
+    manifold.colour = old.colour == k_inactive_colour ? k_no_colour : old.colour; // it was a sensor's
     Axes frame = contact_frame(manifold.normal);
     Axes old_frame = contact_frame(old.normal);
     precise vec3 sideways = old_frame.x * old.tangent_impulse_1 + old_frame.y * old.tangent_impulse_2;

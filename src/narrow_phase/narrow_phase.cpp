@@ -6,9 +6,13 @@
 
 namespace talus::engine {
 
-void narrow_phase(Device& device, const StepPlan& plan) {
+void index_old_manifolds(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_pair_table, .items = plan.table_size});
     device.run({.kernel = fill_pair_table, .slot = k_dispatch_old_pairs});
+}
+
+void narrow_phase(Device& device, const StepPlan& plan) {
+    index_old_manifolds(device, plan);
     device.run({.kernel = collide_pairs, .slot = k_dispatch_pairs});
 }
 

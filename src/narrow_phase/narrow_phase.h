@@ -11,6 +11,8 @@ struct StepPlan;
 
 /// Fills Manifolds and ManifoldPoints, one and four a pair.
 void narrow_phase(Device&, const StepPlan&);
+/// Fills PairTable from OldManifolds, which narrow_phase does too.
+void index_old_manifolds(Device&, const StepPlan&);
 
 extern const Kernel clear_pair_table;
 extern const Kernel fill_pair_table;

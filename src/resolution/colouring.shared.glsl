@@ -42,6 +42,12 @@ inline uint first_free_hub_colour(uint used_high)
     return free != 0u ? k_first_hub_colour + uint(findLSB(free)) : k_overflow_colour;
 }
 
+// Whether the solver treats a manifold: the bodies touch, or are about to, and neither is a sensor.
+inline bool is_active(Manifold manifold)
+{
+    return manifold.point_count > 0u && manifold.colour != k_inactive_colour;
+}
+
 // Words of BodyColours.
 const uint k_used_low = 0u;  // colours 0-31 in use at the body, a bit each
 const uint k_used_high = 1u; // colours 32-63

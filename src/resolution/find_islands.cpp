@@ -27,7 +27,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
     std::vector<bool> touches(body_count, false);
     for (uint pair = 0; pair < pair_count && launch.args[0] == 0; ++pair) {
         const Manifold& manifold = state.manifolds[pair];
-        if (manifold.point_count == 0) continue;
+        if (!is_active(manifold)) continue;
         touches[manifold.body_a] = touches[manifold.body_b] = true;
         if (is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]))
             join(manifold.body_a, manifold.body_b);

@@ -47,7 +47,7 @@ void main()
     uint pair = item_index();
     if (pair >= counters[k_counter_pair_count]) return;
     Manifold manifold = unpack(manifolds[pair]);
-    if (manifold.point_count == 0u) return;
+    if (manifold.point_count == 0u || manifold.colour == k_inactive_colour) return;
     bool pushes_a = islands[manifold.body_a] != k_none;
     bool pushes_b = islands[manifold.body_b] != k_none;
     if (pushes_a) atomicMax(substeps[manifold.body_a], manifold.substeps);

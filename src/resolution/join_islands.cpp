@@ -16,7 +16,7 @@ static void join_islands_on_cpu(CpuState& state, const Launch&) {
     for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
-        if (manifold.point_count == 0) continue;
+        if (!is_active(manifold)) continue;
         if (islands[a] != k_none) state.substeps[a] = max(state.substeps[a], manifold.substeps);
         if (islands[b] != k_none) state.substeps[b] = max(state.substeps[b], manifold.substeps);
         if (islands[a] == k_none || islands[b] == k_none) continue;

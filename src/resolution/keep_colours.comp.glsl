@@ -39,7 +39,7 @@ void main()
     if (pair >= counters[k_counter_pair_count]) return;
     Manifold manifold = manifolds[pair];
     uint colour = k_inactive_colour;
-    if (manifold.point_count > 0u) {
+    if (is_active(manifold)) {
         atomicAdd(counters[k_counter_manifold_count], 1u);
         atomicAdd(counters[k_counter_contact_count], manifold.point_count);
         atomicMax(counters[k_counter_substep_demand], manifold.substeps);

@@ -18,7 +18,7 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
     for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
         const Manifold& manifold = state.manifolds[pair];
         uint colour = k_inactive_colour;
-        if (manifold.point_count > 0) {
+        if (is_active(manifold)) {
             ++state.counters[k_counter_manifold_count];
             state.counters[k_counter_contact_count] += manifold.point_count;
             state.counters[k_counter_substep_demand] = max(state.counters[k_counter_substep_demand], manifold.substeps);

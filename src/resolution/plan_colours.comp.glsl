@@ -41,6 +41,8 @@ void main()
     dispatches[k_dispatch_islands] = groups_for(on * group_count, 1u);
     dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1u);
     dispatches[k_dispatch_hubs] = groups_for(on * counters[k_counter_hub_count], 1u);
+    dispatches[k_dispatch_reports] = groups_for(on * counters[k_counter_pair_count], k_group_size);
+    dispatches[k_dispatch_report_ends] = groups_for(on * counters[k_counter_old_pair_count], k_group_size);
     counters[k_counter_did_not_fit] = did_not_fit;
     counters[k_counter_launched_colours] = colours;
     counters[k_counter_launched_substeps] = substeps;

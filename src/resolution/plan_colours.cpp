@@ -34,6 +34,8 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_launched_colours] = colours;
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;
+    state.dispatches[k_dispatch_reports] = groups_for(on * counters[k_counter_pair_count], k_group_size);
+    state.dispatches[k_dispatch_report_ends] = groups_for(on * counters[k_counter_old_pair_count], k_group_size);
 }
 
 const Kernel plan_colours{"resolution/plan_colours", plan_colours_on_cpu, 1};

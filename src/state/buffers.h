@@ -70,6 +70,11 @@ namespace talus::engine {
       Result)                                                                                                          \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
     X(HubChanges, hub_changes, HubChange, "fffuffff", Result)                                                          \
+    /* finish */                                                                                                       \
+    X(ContactImpulses, contact_impulses, ContactImpulse, "ffff", Result)                                               \
+    X(ContactStates, contact_states, uint, "u", Result)                                                                \
+    X(OldContactStates, old_contact_states, uint, "u", State)                                                          \
+    X(ContactReports, contact_reports, ContactReport, "uuuufffuffffffffffffffffffff", Scratch)                         \
     /* control */                                                                                                      \
     X(Counters, counters, uint, "u", State)                                                                            \
     X(Dispatches, dispatches, Dispatch, "uuuu", Result)

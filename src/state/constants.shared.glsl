@@ -14,6 +14,16 @@ const uint k_kind_static = 0u;
 const uint k_kind_rigid = 1u;
 const uint k_kind_kinematic = 2u;
 const uint k_kind_absent = 255u; // an empty body slot
+const uint k_sensor_bit = 0x10000u;
+
+// ContactStates
+const uint k_contact_apart = 0u;
+const uint k_contact_touches = 1u;
+
+// ContactReport::phase
+const uint k_phase_begin = 0u;
+const uint k_phase_persist = 1u;
+const uint k_phase_end = 2u;
 
 // BodyPose::flags
 const uint k_body_frozen = 1u; // went non-finite; stays where it was
@@ -60,6 +70,7 @@ const uint k_counter_hub_manifolds = 13u; // in the colours for hubs
 const uint k_counter_launched_colours = 14u;
 const uint k_counter_launched_substeps = 15u;
 const uint k_counter_launched_overflow = 16u;
+const uint k_counter_report_count = 17u; // contact events
 const uint k_counter_words = 20u;
 
 // Bits of k_counter_did_not_fit
@@ -68,6 +79,7 @@ const uint k_fit_colours = 2u;
 const uint k_fit_substeps = 4u;
 const uint k_fit_hubs = 8u;
 const uint k_fit_search = 16u; // no room is missing: a driver ended the search for pairs
+const uint k_fit_reports = 32u; // the step itself is done; those behind it wait until its reports have been fetched
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.
@@ -80,7 +92,9 @@ const uint k_dispatch_islands = 5u;    // a group for each body slot, which may 
 const uint k_dispatch_colours = 6u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
 const uint k_dispatch_overflow = k_dispatch_colours + k_max_colours; // one group if there is an overflow set
 const uint k_dispatch_hubs = k_dispatch_overflow + 1u; // one group for each hub
-const uint k_dispatch_count = k_dispatch_hubs + 1u;
+const uint k_dispatch_reports = k_dispatch_hubs + 1u; // groups of 64 pairs, for contact events
+const uint k_dispatch_report_ends = k_dispatch_reports + 1u; // groups of 64 pairs of the last step
+const uint k_dispatch_count = k_dispatch_report_ends + 1u;
 
 const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each
 const uint k_sort_tile = 1024u;  // keys that one group sorts

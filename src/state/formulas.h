@@ -39,4 +39,6 @@ namespace talus::engine {
 #include "resolution/hit.shared.glsl"
 #include "resolution/island.shared.glsl"
 
+#include "finish/contact_report.shared.glsl"
+
 } // namespace talus::engine

@@ -22,7 +22,7 @@ struct BodyVelocity {
 // 16 bytes
 struct BodyShape {
     vec3 half_extents; // m, body axes; a sphere has its radius in all three
-    uint type;         // bits 0-7 k_shape_*, bits 8-15 k_kind_*
+    uint type;         // bits 0-7 k_shape_*, bits 8-15 k_kind_*, bit 16 k_sensor_bit
 };
 
 // 48 bytes. What changes only when the caller says so.
@@ -52,7 +52,7 @@ struct Aabb {
     vec3 lower;   // m, world
     float margin; // m, how far beyond the shape the box reaches
     vec3 upper;
-    uint movable; // 1 where contacts can push the body
+    uint movable; // 1 where contacts can push the body, and of a sensor
 };
 
 // 32 bytes. How far a body has come since the start of the step.
@@ -160,6 +160,26 @@ struct HubChange {
     uint body;
     vec3 angular; // rad/s
     float reserved;
+};
+
+// 16 bytes, one a pair.
+struct ContactImpulse {
+    vec4 normal_impulse; // N s of each point, the sum over the step, hits included
+};
+
+// 112 bytes: a contact event on its way to the host. A vec4 holds a number for each point.
+struct ContactReport {
+    uint body_a;
+    uint body_b;
+    uint phase; // k_phase_*
+    uint point_count;
+    vec3 normal; // unit, world, from A to B
+    uint sensor; // 1 where one of the two is a sensor
+    vec4 x; // m, world
+    vec4 y;
+    vec4 z;
+    vec4 separation;     // m
+    vec4 normal_impulse; // N s
 };
 
 // ---- control ----

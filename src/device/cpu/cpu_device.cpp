@@ -59,6 +59,7 @@ private:
 struct Frame {
     std::vector<uint> counters;
     std::vector<BodyPose> poses;
+    std::vector<ContactReport> reports;
     std::vector<double> stage_times;
 };
 
@@ -129,7 +130,7 @@ public:
         stage_start = Clock::now();
     }
 
-    Ticket end_step(bool with_poses) override {
+    Ticket end_step(bool with_poses, uint report_room) override {
         end_stage();
         Frame& frame = frames[next_ticket % k_ring_size];
         const std::size_t words = std::min<std::size_t>(state.counters.size, k_counter_words);
@@ -137,6 +138,8 @@ public:
         const std::size_t bodies =
             with_poses ? std::min<std::size_t>(state.poses.size, state.parameters.body_count) : 0;
         frame.poses.assign(state.poses.data, state.poses.data + bodies);
+        const uint reports = words == 0 ? 0 : min(state.counters[k_counter_report_count], report_room);
+        frame.reports.assign(state.contact_reports.data, state.contact_reports.data + reports);
         frame.stage_times = stage_times;
         std::fill(stage_times.begin(), stage_times.end(), 0.0);
         return next_ticket++;
@@ -146,6 +149,7 @@ public:
     void wait(Ticket) override {}
     std::span<const uint> counters(Ticket ticket) const override { return frame_of(ticket).counters; }
     std::span<const BodyPose> poses(Ticket ticket) const override { return frame_of(ticket).poses; }
+    std::span<const ContactReport> reports(Ticket ticket) const override { return frame_of(ticket).reports; }
     std::span<const double> stage_ms(Ticket ticket) const override { return frame_of(ticket).stage_times; }
 
 private:

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
@@ -17,6 +16,7 @@
 
 #include "device/device.h"
 #include "device/gl/callers_context.h"
+#include "log.h"
 
 namespace talus::engine {
 namespace {
@@ -63,13 +63,27 @@ void* (*find_glx_query())() {
     return nullptr;
 }
 
-void GLAPIENTRY print_debug_message(GLenum source, GLenum, GLuint, GLenum severity, GLsizei length,
-                                    const GLchar* message, const void* context) {
-    const bool grave = severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM;
+LogLevel level_of(GLenum severity) {
+    switch (severity) {
+    case GL_DEBUG_SEVERITY_HIGH:
+        return LogLevel::Error;
+    case GL_DEBUG_SEVERITY_MEDIUM:
+        return LogLevel::Warning;
+    case GL_DEBUG_SEVERITY_LOW:
+        return LogLevel::Info;
+    default:
+        return LogLevel::Debug;
+    }
+}
+
+void GLAPIENTRY log_debug_message(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length,
+                                  const GLchar* message, const void* context) {
     // What the compiler has to say comes as an Error, with the lines of the source files.
-    if (!grave || source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
-    std::fprintf(stderr, "talus: OpenGL (%s): %.*s\n", static_cast<const OpenGlContext*>(context)->activity,
-                 static_cast<int>(length), message);
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
+    if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP) return;
+    const auto size = length < 0 ? std::strlen(message) : static_cast<std::size_t>(length);
+    log(level_of(severity), std::string("OpenGL (") + static_cast<const OpenGlContext*>(context)->activity +
+                                "): " + std::string(message, size));
 }
 
 bool debug_wanted() {
@@ -89,11 +103,11 @@ struct EglCandidate {
     std::string label;
     EGLDisplay display = EGL_NO_DISPLAY;
 
-    std::unique_ptr<OpenGlContext> open() const;
+    std::unique_ptr<OpenGlContext> open(bool debug) const;
 };
 
 /// Leaves the new context current. Throws Error with the reason alone.
-std::unique_ptr<OpenGlContext> EglCandidate::open() const {
+std::unique_ptr<OpenGlContext> EglCandidate::open(bool debug) const {
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
         throw Error("its display cannot be opened (" + egl_error() + ")");
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) throw Error("it has no desktop OpenGL");
@@ -109,7 +123,7 @@ std::unique_ptr<OpenGlContext> EglCandidate::open() const {
 
     std::unique_ptr<OpenGlContext> opened(new OpenGlContext);
     opened->own_ = true;
-    opened->debug_ = debug_wanted();
+    opened->debug_ = debug || debug_wanted();
     opened->display_ = display;
     opened->query_current_ = current_egl_context;
     if (!surfaceless) {
@@ -133,7 +147,7 @@ std::unique_ptr<OpenGlContext> EglCandidate::open() const {
     if (opened->debug_) {
         glEnable(GL_DEBUG_OUTPUT);
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-        glDebugMessageCallback(print_debug_message, opened.get());
+        glDebugMessageCallback(log_debug_message, opened.get());
     }
     return opened;
 }
@@ -174,7 +188,7 @@ constexpr const char* k_no_platform = "EGL has no driver, or one without both th
 
 } // namespace
 
-std::unique_ptr<OpenGlContext> OpenGlContext::own() {
+std::unique_ptr<OpenGlContext> OpenGlContext::own(bool debug) {
     const std::string refused = "no OpenGL 4.5 context without a window: ";
     if (!epoxy_has_egl()) throw Error(refused + k_no_egl);
 
@@ -184,7 +198,7 @@ std::unique_ptr<OpenGlContext> OpenGlContext::own() {
     for (const auto& candidates : {device_candidates(), surfaceless_candidates()}) {
         for (const EglCandidate& candidate : candidates) {
             try {
-                std::unique_ptr<OpenGlContext> opened = candidate.open();
+                std::unique_ptr<OpenGlContext> opened = candidate.open(debug);
                 if (!opened->is_software()) {
                     opened->why_ = candidate.label + ", the first OpenGL 4.5 renderer in hardware";
                     return opened;
@@ -282,7 +296,7 @@ std::vector<DeviceInfo> probe_gl() {
     for (const auto& candidates : {device_candidates(), last}) {
         for (const EglCandidate& candidate : candidates) {
             try {
-                const auto opened = candidate.open();
+                const auto opened = candidate.open(false);
                 // The surfaceless platform mostly shows one of the devices again.
                 const bool again = candidate.display == surfaceless &&
                                    std::any_of(probes.begin(), probes.end(), [&](const DeviceInfo& probe) {

@@ -12,8 +12,9 @@ namespace talus::engine {
 class OpenGlContext {
 public:
     /// A context of its own without a window: the first OpenGL 4.5 renderer in hardware, or else the first in software.
-    /// The context that was current on the thread stays current. Throws Error with all that was tried.
-    static std::unique_ptr<OpenGlContext> own();
+    /// The context that was current on the thread stays current. A debug context, which TALUS_GL_DEBUG=1 asks for too,
+    /// sends the driver's messages to the log. Throws Error with all that was tried.
+    static std::unique_ptr<OpenGlContext> own(bool debug = false);
     /// The one that is current on this thread. Throws Error if there is none, or it is not desktop OpenGL 4.5.
     static std::unique_ptr<OpenGlContext> current();
 
@@ -26,7 +27,7 @@ public:
     void make_current();
 
     bool is_own() const noexcept { return own_; }
-    /// True where TALUS_GL_DEBUG=1 asked for a debug context, whose messages go to stderr.
+    /// Whether it is a debug context of our own.
     bool is_debug() const noexcept { return debug_; }
     bool is_software() const noexcept;
     const std::string& renderer() const noexcept { return renderer_; }

@@ -176,7 +176,7 @@ void GlDevice::begin_stage(Stage stage) {
     objects_->steps.begin_stage(stage);
 }
 
-Ticket GlDevice::end_step(bool with_poses) {
+Ticket GlDevice::end_step(bool with_poses, uint report_room) {
     make_current();
     leave();
     // All bits, once a step: the copies below and the caller's drawing, whatever it does with the buffers, see the
@@ -186,7 +186,10 @@ Ticket GlDevice::end_step(bool with_poses) {
     const GlBuffer& poses = buffer(BufferId::Poses);
     const std::size_t body_count = parameters_ ? parameters_->body_count : 0;
     const std::size_t pose_bytes = with_poses ? std::min(body_count * sizeof(BodyPose), poses.size()) : 0;
-    return objects_->steps.end_step(buffer(BufferId::Counters).name(), poses.name(), pose_bytes);
+    const GlBuffer& reports = buffer(BufferId::ContactReports);
+    const std::size_t report_bytes = std::min(report_room * sizeof(ContactReport), reports.size());
+    return objects_->steps.end_step(buffer(BufferId::Counters).name(), {poses.name(), pose_bytes},
+                                    {reports.name(), report_bytes});
 }
 
 bool GlDevice::finished(Ticket ticket) const {
@@ -207,6 +210,11 @@ std::span<const uint> GlDevice::counters(Ticket ticket) const {
 std::span<const BodyPose> GlDevice::poses(Ticket ticket) const {
     context_->make_current();
     return objects_->steps.poses(ticket);
+}
+
+std::span<const ContactReport> GlDevice::reports(Ticket ticket) const {
+    context_->make_current();
+    return objects_->steps.reports(ticket);
 }
 
 std::span<const double> GlDevice::stage_ms(Ticket ticket) const {
@@ -253,9 +261,9 @@ void GlDevice::leave() {
     bindings_.end();
 }
 
-std::unique_ptr<Device> make_gl_device(GlContext context, bool profile) {
+std::unique_ptr<Device> make_gl_device(GlContext context, bool profile, bool debug) {
     check_kernel_folder();
-    return std::make_unique<GlDevice>(context == GlContext::Own ? OpenGlContext::own() : OpenGlContext::current(),
+    return std::make_unique<GlDevice>(context == GlContext::Own ? OpenGlContext::own(debug) : OpenGlContext::current(),
                                       profile);
 }
 

@@ -34,11 +34,12 @@ public:
     void set_parameters(const Parameters&) override;
     void run(const Launch&) override;
     void begin_stage(Stage) override;
-    Ticket end_step(bool with_poses) override;
+    Ticket end_step(bool with_poses, uint report_room) override;
     bool finished(Ticket) const override;
     void wait(Ticket) override;
     std::span<const uint> counters(Ticket) const override;
     std::span<const BodyPose> poses(Ticket) const override;
+    std::span<const ContactReport> reports(Ticket) const override;
     std::span<const double> stage_ms(Ticket) const override;
     std::uint32_t gl_name(BufferId) const override;
     void make_current() override;

@@ -2,6 +2,7 @@
 // See gl_step_ring.h. Times are differences of GL_TIMESTAMP: GL_TIME_ELAPSED is broken on llvmpipe, and cannot nest.
 #include "device/gl/gl_step_ring.h"
 
+#include <algorithm>
 #include <bit>
 
 #include <talus/types.h>
@@ -11,6 +12,12 @@ namespace {
 
 constexpr GLbitfield k_read_mapped = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
 constexpr std::size_t k_counter_bytes = k_counter_words * sizeof(uint);
+
+void copy_into(GlBuffer& target, StepRing::Source source, const char* label) {
+    if (source.bytes > target.size()) target = GlBuffer(label, std::bit_ceil(source.bytes), k_read_mapped);
+    if (source.bytes != 0)
+        glCopyNamedBufferSubData(source.buffer, target.name(), 0, 0, static_cast<GLsizeiptr>(source.bytes));
+}
 
 } // namespace
 
@@ -29,17 +36,17 @@ void StepRing::begin_stage(Stage stage) {
     slot.stages.push_back(stage);
 }
 
-Ticket StepRing::end_step(GLuint counters, GLuint poses, std::size_t pose_bytes) {
+Ticket StepRing::end_step(GLuint counters, Source poses, Source reports) {
     Slot& slot = open_slot();
     if (!slot.stages.empty()) mark_time(slot, slot.stages.size());
     slot.collected = false;
 
     glCopyNamedBufferSubData(counters, counters_.name(), 0,
                              static_cast<GLintptr>(next_ % k_ring_size * k_counter_bytes), k_counter_bytes);
-    if (pose_bytes > slot.poses.size())
-        slot.poses = GlBuffer("StepRing poses", std::bit_ceil(pose_bytes), k_read_mapped);
-    slot.pose_count = pose_bytes / sizeof(BodyPose);
-    if (pose_bytes != 0) glCopyNamedBufferSubData(poses, slot.poses.name(), 0, 0, static_cast<GLsizeiptr>(pose_bytes));
+    copy_into(slot.poses, poses, "StepRing poses");
+    slot.pose_count = poses.bytes / sizeof(BodyPose);
+    copy_into(slot.reports, reports, "StepRing reports");
+    slot.report_room = reports.bytes / sizeof(ContactReport);
     slot.fence = GlFence::place();
     glFlush();
     open_ = false;
@@ -67,6 +74,12 @@ std::span<const BodyPose> StepRing::poses(Ticket ticket) {
     return {reinterpret_cast<const BodyPose*>(found.poses.mapped()), found.pose_count};
 }
 
+std::span<const ContactReport> StepRing::reports(Ticket ticket) {
+    const std::size_t made = counters(ticket)[k_counter_report_count];
+    const Slot& found = slot(ticket);
+    return {reinterpret_cast<const ContactReport*>(found.reports.mapped()), std::min(made, found.report_room)};
+}
+
 std::span<const double> StepRing::stage_ms(Ticket ticket) {
     Slot& found = finished_slot(ticket);
     collect_times(found);
@@ -76,7 +89,7 @@ std::span<const double> StepRing::stage_ms(Ticket ticket) {
 std::size_t StepRing::memory_bytes() const noexcept {
     std::size_t bytes = counters_.size();
     for (const Slot& slot : slots_)
-        bytes += slot.poses.size();
+        bytes += slot.poses.size() + slot.reports.size();
     return bytes;
 }
 

@@ -21,19 +21,25 @@ public:
 
     void begin_stage(Stage);
     /// Copies out of the two buffers, which all kernels so far must be visible in. Waits only if the ring is full.
-    Ticket end_step(GLuint counters, GLuint poses, std::size_t pose_bytes);
+    struct Source {
+        GLuint buffer;
+        std::size_t bytes; ///< from its start; 0: nothing leaves
+    };
+    Ticket end_step(GLuint counters, Source poses, Source reports);
     bool finished(Ticket);
     void wait(Ticket);
     std::span<const uint> counters(Ticket);
     std::span<const BodyPose> poses(Ticket);
+    /// As many as the step made, at most as many as left.
+    std::span<const ContactReport> reports(Ticket);
     std::span<const double> stage_ms(Ticket);
     std::size_t memory_bytes() const noexcept;
 
 private:
     struct Slot {
         GlFence fence;
-        GlBuffer poses;
-        std::size_t pose_count = 0;
+        GlBuffer poses, reports;
+        std::size_t pose_count = 0, report_room = 0;
         std::vector<Stage> stages;   // begun in the step, in order
         std::vector<GLuint> queries; // a time at the start of each of them, and one at the end of the last
         std::vector<double> stage_ms;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a manifold in the order of colours: the impulses of the whole step, hits included, go where its
+// pair is. Launched only where contacts are watched.
+// Reads: Counters, Constraints.
+// Writes: ContactImpulses, of the pairs that the solver treats.
+// Needs: a barrier after the last pass of the solver.
+// Overflow: none; launched empty after a step that did not fit.
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) readonly buffer Constraints { ContactConstraintCells constraints[]; };
+layout(std430) writeonly buffer ContactImpulses { ContactImpulseCells contact_impulses[]; };
+
+void main()
+{
+    uint index = item_index();
+    if (index >= counters[k_counter_manifold_count]) return;
+    ContactConstraint c = unpack(constraints[index]);
+    precise vec4 impulse = c.total_impulse + c.hit_impulse;
+    ContactImpulse gathered;
+    gathered.normal_impulse = impulse;
+    contact_impulses[c.manifold] = pack(gathered);
+}

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#include <talus/version.h>
+
+namespace talus {
+
+const char* version() noexcept {
+    return TALUS_VERSION; // version.txt
+}
+
+} // namespace talus
