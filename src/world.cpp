@@ -409,9 +409,9 @@ std::vector<Contact> World::contacts() const {
         Contact contact{impl_->table.id_of(manifold.body_a),
                         impl_->table.id_of(manifold.body_b),
                         from_glm(manifold.normal),
-                         manifold.colour == k_inactive_colour,
-                         {},
-                         manifold.colour};
+                        manifold.colour == k_inactive_colour,
+                        {},
+                        manifold.colour};
         for (std::size_t k = 4 * i; k < 4 * i + manifold.point_count; ++k)
             contact.points.push_back(
                 {from_glm(records.points[k].position), records.points[k].separation, records.impulses[k]});
