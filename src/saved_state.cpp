@@ -5,24 +5,29 @@
 
 #include <algorithm>
 
+#include "state/formulas.h"
 #include "step_results.h"
 
 namespace talus::engine {
 
-static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 8,
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 9,
               "another buffer survives the step: snapshots have to hold it too");
 
 std::size_t SavedState::bytes() const {
     std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
-                      impulses.size() * sizeof(float);
+                      impulses.size() * sizeof(float) + contact_states.size() * sizeof(uint);
     BodyTable::visit_lists(table, [&](const auto& list) { sum += list.size() * sizeof list[0]; });
     return sum;
 }
 
 SavedState save_state(Simulation& simulation, const BodyTable& table, const Settings& settings) {
     ContactRecords contacts = read_contacts(simulation);
-    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}};
-    simulation.state_device().read(std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters}});
+    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}};
+    saved.contact_states.resize(contacts.manifolds.size());
+    simulation.state_device().read(
+        std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters},
+                   ReadRequest{BufferId::OldContactStates, saved.contact_states.size() * sizeof(uint),
+                               saved.contact_states.data()}});
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
         const std::size_t first = 4 * i, end = first + contacts.manifolds[i].point_count;
         for (std::size_t k = first; k < end; ++k) {
@@ -48,6 +53,11 @@ void Simulation::restore(const SavedState& saved) {
         const Manifold& manifold = saved.manifolds[i];
         pairs.push_back({manifold.body_a, manifold.body_b});
         if (manifold.point_count == 0) continue;
+        if (!is_active(manifold)) { // of a sensor: without impulses
+            for (uint k = 0; k < manifold.point_count; ++k, ++next)
+                points[std::size_t{4} * i + k] = saved.points[next];
+            continue;
+        }
         ContactConstraint& constraint = constraints.emplace_back();
         constraint.manifold = i;
         for (uint k = 0; k < manifold.point_count; ++k, ++next) {
@@ -62,8 +72,10 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::OldManifolds, saved.manifolds);
     write_all(BufferId::OldManifoldPoints, points);
     write_all(BufferId::Constraints, constraints);
+    write_all(BufferId::OldContactStates, saved.contact_states);
     write_all(BufferId::Counters, saved.counters);
 
+    reports.clear();
     finished_count = saved.report.step;
     newest_report = saved.report;
     newest_report.growths = growths;

@@ -136,6 +136,7 @@ struct World::Impl {
         settings = saved.settings;
         table.restore(saved.table);
         table_step = saved.report.step;
+        events.clear();
         device_slots = saved.counters[k_counter_body_count];
         steps_before.assign(table.slot_count(), table_step); // a frame of the time before is no longer there
     }
