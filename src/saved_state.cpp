@@ -5,23 +5,29 @@
 
 #include <algorithm>
 
+#include "state/formulas.h"
 #include "step_results.h"
 
 namespace talus::engine {
 
-static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 8,
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 9,
               "another buffer survives the step: snapshots have to hold it too");
 
 std::size_t SavedState::bytes() const {
     std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
-                      impulses.size() * sizeof(float);
+                      impulses.size() * sizeof(float) + contact_states.size() * sizeof(uint);
     BodyTable::visit_lists(table, [&](const auto& list) { sum += list.size() * sizeof list[0]; });
     return sum;
 }
 
 SavedState save_state(Simulation& simulation, const BodyTable& table, const Settings& settings) {
     ContactRecords contacts = read_contacts(simulation);
-    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}};
+    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}};
+    if (simulation.watches_contacts()) {
+        saved.contact_states.resize(contacts.manifolds.size());
+        simulation.state_device().read(std::array{ReadRequest{
+            BufferId::OldContactStates, saved.contact_states.size() * sizeof(uint), saved.contact_states.data()}});
+    }
     simulation.state_device().read(std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters}});
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
         const std::size_t first = 4 * i, end = first + contacts.manifolds[i].point_count;
@@ -47,13 +53,13 @@ void Simulation::restore(const SavedState& saved) {
     for (uint i = 0; i < pair_count; ++i) {
         const Manifold& manifold = saved.manifolds[i];
         pairs.push_back({manifold.body_a, manifold.body_b});
-        if (manifold.point_count == 0) continue;
-        ContactConstraint& constraint = constraints.emplace_back();
+        ContactConstraint constraint{};
         constraint.manifold = i;
         for (uint k = 0; k < manifold.point_count; ++k, ++next) {
             points[std::size_t{4} * i + k] = saved.points[next];
             constraint.total_impulse[static_cast<int>(k)] = saved.impulses[next];
         }
+        if (is_active(manifold)) constraints.push_back(constraint); // a sensor's contact is not solved
     }
     const auto write_all = [this](BufferId buffer, const auto& records) {
         if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));
@@ -63,6 +69,12 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::OldManifoldPoints, points);
     write_all(BufferId::Constraints, constraints);
     write_all(BufferId::Counters, saved.counters);
+    if (watches_contacts()) {
+        std::vector<uint> states = saved.contact_states;
+        states.resize(pair_count, k_contact_apart);
+        write_all(BufferId::OldContactStates, states);
+    }
+    reports.clear();
 
     finished_count = saved.report.step;
     newest_report = saved.report;

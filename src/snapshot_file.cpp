@@ -18,6 +18,7 @@
 
 #include "checks.h"
 #include "saved_state.h"
+#include "state/formulas.h"
 
 namespace talus {
 namespace {
@@ -93,6 +94,7 @@ template <typename File, typename State> void visit(File& file, State& state) {
     file.list(state.manifolds);
     file.list(state.points);
     file.list(state.impulses);
+    file.list(state.contact_states);
 }
 
 /// A file may have been made by anyone: indices that lead out of a list are refused here.
@@ -101,19 +103,23 @@ void check(SavedState& state) {
     if (const std::string wrong = state.table.complete(); !wrong.empty()) throw Error(wrong);
     const uint slots = state.table.slot_count();
     std::size_t point_count = 0;
+    std::size_t solved_count = 0;
     uint touching = 0;
     for (const Manifold& manifold : state.manifolds) {
         if (manifold.body_a >= manifold.body_b || manifold.body_b >= slots || manifold.point_count > 4 ||
             manifold.colour > k_no_colour || manifold.substeps > 1000)
             throw Error("a manifold is not one of its bodies");
         point_count += manifold.point_count;
-        touching += manifold.point_count > 0;
+        if (!is_active(manifold)) continue;
+        ++touching;
+        solved_count += manifold.point_count;
     }
     const StepReport& report = state.report;
     const auto& counters = state.counters;
     if (state.points.size() != point_count || state.impulses.size() != point_count)
         throw Error("it has not as many points as its manifolds say");
-    if (report.pairs != state.manifolds.size() || report.manifolds != touching || report.contacts != point_count ||
+    if (report.pairs != state.manifolds.size() || report.manifolds != touching || report.contacts != solved_count ||
+        (!state.contact_states.empty() && state.contact_states.size() != report.pairs) ||
         counters[k_counter_did_not_fit] != 0 || counters[k_counter_body_count] > slots ||
         counters[k_counter_old_pair_count] != report.pairs)
         throw Error("its counts do not go together");

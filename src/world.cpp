@@ -135,6 +135,7 @@ struct World::Impl {
         simulation.set_settings(saved.settings);
         settings = saved.settings;
         table.restore(saved.table);
+        events.clear();
         table_step = saved.report.step;
         device_slots = saved.counters[k_counter_body_count];
         steps_before.assign(table.slot_count(), table_step); // a frame of the time before is no longer there
