@@ -17,7 +17,7 @@ void add_view(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand("view", "Show a scene in a window, to play with; F1 there lists the keys");
     command
         ->add_option("scene", options->simulation.scene,
-                     "A built-in scene, as stack:height=30, or a file (.gltf, .glb)")
+                     "A built-in scene, as stack:height=30, or a file (.gltf, .glb, .snapshot)")
         ->type_name("SCENE")
         ->capture_default_str();
     add_device_options(*command, options->simulation);

@@ -162,7 +162,7 @@ std::string BodyTable::complete() {
     changed.clear();
     present_count = bouncing_count = kinematic_count = 0;
     for (uint slot = 0; slot < slots; ++slot) {
-        const uint kind = shapes[slot].type >> 8, shape = shapes[slot].type & 255u;
+        const uint shape = shapes[slot].type & 255u, kind = (shapes[slot].type & ~k_sensor_bit) >> 8;
         if (present[slot] > 1 || generations[slot] >= next_generations[slot] ||
             (present[slot] != 0 ? kind > k_kind_kinematic || shape > k_shape_sphere : kind != k_kind_absent))
             return "body " + std::to_string(slot) + " is of no known kind";

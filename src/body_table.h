@@ -45,7 +45,7 @@ public:
     bool is_present(uint slot) const { return present[slot] != 0; }
     BodyId id_of(uint slot) const { return {slot, generations[slot]}; }
     /// Also of a body that was removed, until its slot is used again.
-    BodyId last_id_of(uint slot) const { return {slot, generations[slot] - (is_present(slot) ? 0 : 1)}; }
+    BodyId last_id_of(uint slot) const { return {slot, generations[slot]}; }
     BodyKind kind_of(uint slot) const { return static_cast<BodyKind>(shapes[slot].type >> 8 & 255u); }
     void set_sensor(uint slot, bool wanted);
     bool senses(uint slot) const { return (shapes[slot].type & k_sensor_bit) != 0; }

@@ -23,11 +23,12 @@ std::size_t SavedState::bytes() const {
 SavedState save_state(Simulation& simulation, const BodyTable& table, const Settings& settings) {
     ContactRecords contacts = read_contacts(simulation);
     SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}};
-    saved.contact_states.resize(contacts.manifolds.size());
-    simulation.state_device().read(
-        std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters},
-                   ReadRequest{BufferId::OldContactStates, saved.contact_states.size() * sizeof(uint),
-                               saved.contact_states.data()}});
+    if (simulation.watches_contacts()) {
+        saved.contact_states.resize(contacts.manifolds.size());
+        simulation.state_device().read(std::array{ReadRequest{
+            BufferId::OldContactStates, saved.contact_states.size() * sizeof(uint), saved.contact_states.data()}});
+    }
+    simulation.state_device().read(std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters}});
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
         const std::size_t first = 4 * i, end = first + contacts.manifolds[i].point_count;
         for (std::size_t k = first; k < end; ++k) {
@@ -52,18 +53,13 @@ void Simulation::restore(const SavedState& saved) {
     for (uint i = 0; i < pair_count; ++i) {
         const Manifold& manifold = saved.manifolds[i];
         pairs.push_back({manifold.body_a, manifold.body_b});
-        if (manifold.point_count == 0) continue;
-        if (!is_active(manifold)) { // of a sensor: without impulses
-            for (uint k = 0; k < manifold.point_count; ++k, ++next)
-                points[std::size_t{4} * i + k] = saved.points[next];
-            continue;
-        }
-        ContactConstraint& constraint = constraints.emplace_back();
+        ContactConstraint constraint{};
         constraint.manifold = i;
         for (uint k = 0; k < manifold.point_count; ++k, ++next) {
             points[std::size_t{4} * i + k] = saved.points[next];
             constraint.total_impulse[static_cast<int>(k)] = saved.impulses[next];
         }
+        if (is_active(manifold)) constraints.push_back(constraint); // a sensor's contact is not solved
     }
     const auto write_all = [this](BufferId buffer, const auto& records) {
         if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));
@@ -72,10 +68,14 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::OldManifolds, saved.manifolds);
     write_all(BufferId::OldManifoldPoints, points);
     write_all(BufferId::Constraints, constraints);
-    write_all(BufferId::OldContactStates, saved.contact_states);
     write_all(BufferId::Counters, saved.counters);
-
+    if (watches_contacts()) {
+        std::vector<uint> states = saved.contact_states;
+        states.resize(pair_count, k_contact_apart);
+        write_all(BufferId::OldContactStates, states);
+    }
     reports.clear();
+
     finished_count = saved.report.step;
     newest_report = saved.report;
     newest_report.growths = growths;

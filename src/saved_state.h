@@ -21,7 +21,7 @@ struct SavedState {
     std::vector<Manifold> manifolds;   ///< one a pair
     std::vector<ManifoldPoint> points; ///< of the manifolds in turn, as many as each has
     std::vector<float> impulses;       ///< N·s along the normal, one a point: of the whole step, hits included
-    std::vector<uint> contact_states;  ///< k_contact_*, one a pair; without meaning where contacts are not watched
+    std::vector<uint> contact_states;  ///< k_contact_*, one a pair; empty where no contacts were watched
 
     std::size_t bytes() const;
 };

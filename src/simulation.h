@@ -39,6 +39,7 @@ public:
     void restore(const SavedState&);
 
     void set_settings(const Settings&);
+    bool watches_contacts() const { return plan.watch != ContactWatch::None; }
     /// Which contact reports steps make from now on. Waits for the steps on their way.
     void watch_contacts(ContactWatch);
     /// Enqueues a step; waits for the oldest one if too many are on their way.

@@ -135,8 +135,8 @@ struct World::Impl {
         simulation.set_settings(saved.settings);
         settings = saved.settings;
         table.restore(saved.table);
-        table_step = saved.report.step;
         events.clear();
+        table_step = saved.report.step;
         device_slots = saved.counters[k_counter_body_count];
         steps_before.assign(table.slot_count(), table_step); // a frame of the time before is no longer there
     }

@@ -142,6 +142,54 @@ TEST_P(SnapshotOnDevice, of_a_world_before_its_first_step) {
     EXPECT_EQ(hashes_of_steps(world, 3), first);
 }
 
+TEST_P(SnapshotOnDevice, sensors_and_contact_events_go_on_as_they_did) {
+    World world = make_world();
+    fill(world, "pool:boxes=40");
+    BodyDefinition sensor = ball_above();
+    sensor.kind = BodyKind::Static;
+    sensor.sensor = true;
+    sensor.shape = Sphere{3.0f};
+    sensor.pose.position = {0.0f, 1.0f, 0.0f};
+    const BodyId watcher = world.add(sensor);
+    world.watch_contacts(ContactWatch::All);
+    world.step(60);
+    world.take_contact_events();
+    const Snapshot before = world.snapshot();
+    const std::string results = results_of(world);
+    const auto events_of_steps = [&] {
+        std::string text;
+        world.step(8);
+        for (const ContactEvent& event : world.take_contact_events()) {
+            for (const std::uint64_t value : {event.step, static_cast<std::uint64_t>(event.phase),
+                                              std::uint64_t{event.a.index}, std::uint64_t{event.b.index}})
+                text += std::to_string(value) + " ";
+            text += event.sensor ? "sensor\n" : "\n";
+        }
+        return text;
+    };
+    const std::string first = events_of_steps();
+    EXPECT_NE(first.find("sensor"), std::string::npos);
+    world.remove(watcher);
+    world.step(2); // their events are not taken
+    world.restore(before);
+    EXPECT_EQ(results_of(world), results);
+    EXPECT_EQ(events_of_steps(), first);
+
+    before.save(std::filesystem::path(testing::TempDir()) / "talus_sensor.snapshot");
+    const Snapshot loaded = Snapshot::load(std::filesystem::path(testing::TempDir()) / "talus_sensor.snapshot");
+    world.restore(loaded);
+    EXPECT_EQ(events_of_steps(), first);
+    // Where nobody watched, the contacts that there are begin.
+    World other = make_world();
+    other.restore(before);
+    const Snapshot unwatched = other.snapshot();
+    world.restore(unwatched);
+    EXPECT_EQ(results_of(world), results);
+    world.step();
+    for (const ContactEvent& event : world.take_contact_events())
+        EXPECT_EQ(event.phase, ContactPhase::Begin);
+}
+
 TEST_P(SnapshotOnDevice, poses_that_come_without_waiting_begin_anew) {
     World world = make_world();
     const std::vector<BodyId> ids = fill(world, "stack:height=3");

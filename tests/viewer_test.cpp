@@ -342,6 +342,28 @@ TEST(Session, goes_on_from_a_file) {
     EXPECT_EQ(other.world().state_hash(), hash);
 }
 
+TEST(Session, starts_from_a_snapshot) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "talus_start.snapshot";
+    World world = make_world();
+    Settings settings;
+    settings.gravity = {0.0f, -3.0f, 0.0f};
+    world.set_settings(settings);
+    world.add(box_at({40.0f, 5.0f, 7.0f}));
+    world.step(9);
+    world.snapshot().save(file);
+    const std::uint64_t hash = world.state_hash();
+    Session session = make_session(file.string());
+    EXPECT_EQ(session.world().step_count(), 9u);
+    EXPECT_EQ(session.world().settings().gravity, settings.gravity);
+    EXPECT_NEAR(session.scene().camera.target.x, 40.0f, 0.5f); // it looks at what is there
+    session.step();
+    EXPECT_NE(session.world().state_hash(), hash);
+    session.reset();
+    EXPECT_EQ(session.world().state_hash(), hash);
+    std::filesystem::remove(file);
+    EXPECT_THROW(make_session(file.string()), Error);
+}
+
 TEST(Session, keeps_what_it_has_where_a_scene_cannot_be_had) {
     Session session = make_session("stack:height=4");
     session.step();

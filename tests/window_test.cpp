@@ -286,8 +286,9 @@ TEST_F(WindowOnScreen, opens_scenes_and_files) {
     world.step(12);
     world.snapshot().save(folder / "other.snapshot");
     window.drop_file(folder / "other.snapshot");
-    EXPECT_TRUE(shows("step 12 "));
+    EXPECT_TRUE(shows("other.snapshot - step 12 "));
     EXPECT_TRUE(shows("7 bodies"));
+    EXPECT_GT(count_pixels(look("dropped snapshot"), is_green), 2000);
 }
 
 TEST_F(WindowOnScreen, shows_overlays_panels_and_help) {

@@ -90,7 +90,7 @@ void ScenePanel::show(Workbench& bench) {
     ImGui::SetNextItemWidth(-1.0f);
     if (ImGui::InputTextWithHint("##path", "a file (.gltf, .glb, .snapshot), or drop one here", &path,
                                  ImGuiInputTextFlags_EnterReturnsTrue))
-        bench.open_file(path);
+        bench.open(path);
 }
 
 } // namespace talus::viewer

@@ -2,11 +2,15 @@
 #include "viewer/session.h"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
+
+#include "scenes/camera.h"
 
 namespace talus::viewer {
 
@@ -24,6 +28,28 @@ std::vector<BodyDefinition> definitions_of(const scenes::Scene& scene) {
     return definitions;
 }
 
+/// Sees all bodies that can move; of a world without any, all.
+scenes::Camera camera_for(const World& world) {
+    std::optional<scenes::Bounds> bounds;
+    for (const bool movable : {true, false}) {
+        for (const BodyId id : world.bodies()) {
+            if (bounds && !movable) break;
+            if (movable == (world.kind(id) == BodyKind::Static)) continue;
+            const Vec3 p = world.pose(id).position;
+            const Shape shape = world.shape(id);
+            const auto* box = std::get_if<Box>(&shape);
+            const float reach = box != nullptr ? 0.5f * std::hypot(box->size.x, box->size.y, box->size.z)
+                                               : std::get<Sphere>(shape).radius;
+            if (!bounds) bounds = scenes::Bounds{p, p};
+            bounds->lower = {std::min(bounds->lower.x, p.x - reach), std::min(bounds->lower.y, p.y - reach),
+                             std::min(bounds->lower.z, p.z - reach)};
+            bounds->upper = {std::max(bounds->upper.x, p.x + reach), std::max(bounds->upper.y, p.y + reach),
+                             std::max(bounds->upper.z, p.z + reach)};
+        }
+    }
+    return bounds ? scenes::frame(*bounds, {0.6f, 0.35f, 1.0f}) : scenes::Camera{};
+}
+
 } // namespace
 
 DeviceKind device_for_window(DeviceKind wanted) {
@@ -35,8 +61,22 @@ DeviceKind device_for_window(DeviceKind wanted) {
 }
 
 Session::Session(const std::string& specification, DeviceKind kind, std::uint32_t thread_count, Adjust settings)
-    : initial_settings(std::move(settings)), threads(thread_count), source(scenes::make_scene(specification)) {
-    take(fill_world(source, initial_settings(source), device_for_window(kind)));
+    : initial_settings(std::move(settings)), threads(thread_count), source(find_start(specification)) {
+    take(world_at(source, device_for_window(kind)));
+}
+
+Session::Start Session::find_start(const std::string& specification) {
+    if (std::filesystem::path(specification).extension() != ".snapshot") return {scenes::make_scene(specification), {}};
+    Start start{{}, Snapshot::load(specification)};
+    start.scene.name = specification;
+    WorldOptions options;
+    options.device = DeviceKind::Cpu;
+    options.threads = 1;
+    World world({}, options);
+    world.restore(*start.snapshot);
+    start.scene.settings = world.settings();
+    start.scene.camera = camera_for(world);
+    return start;
 }
 
 World Session::make_world(const Settings& settings, DeviceKind kind) const {
@@ -48,9 +88,15 @@ World Session::make_world(const Settings& settings, DeviceKind kind) const {
     return World(settings, options);
 }
 
-World Session::fill_world(const scenes::Scene& scene, const Settings& settings, DeviceKind kind) const {
+World Session::world_at(const Start& start, DeviceKind kind) const {
+    const Settings settings = initial_settings(start.scene);
     World world = make_world(settings, kind);
-    world.add(definitions_of(scene));
+    if (start.snapshot) {
+        world.restore(*start.snapshot);
+        world.set_settings(settings); // the snapshot's, with what the user asked for on top
+    } else {
+        world.add(definitions_of(start.scene));
+    }
     return world;
 }
 
@@ -64,14 +110,16 @@ void Session::take(World&& world) {
 }
 
 void Session::open(const std::string& specification) {
-    scenes::Scene scene = scenes::make_scene(specification);
-    take(fill_world(scene, initial_settings(scene), device()));
-    source = std::move(scene);
+    Start start = find_start(specification);
+    take(world_at(start, device()));
+    source = std::move(start);
     past.clear();
 }
 
 void Session::reset() {
-    take(fill_world(source, simulated->settings(), device()));
+    const Settings settings = simulated->settings();
+    take(world_at(source, device()));
+    simulated->set_settings(settings);
     past.clear();
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <talus/talus.h>
@@ -19,13 +20,14 @@ class Session {
 public:
     using Adjust = std::function<Settings(const scenes::Scene&)>;
 
-    /// `settings` gives the settings that a scene starts with. Worlds on a GPU use the context that is current. Throws
-    /// Error where the scene or the device cannot be had.
+    /// The specification is a scene's, or the name of a snapshot's file (.snapshot), which then is the start.
+    /// `settings` gives the settings to start with; a snapshot's own are in its scene. Worlds on a GPU use the context
+    /// that is current. Throws Error where the scene, the snapshot or the device cannot be had.
     Session(const std::string& specification, DeviceKind, std::uint32_t threads, Adjust settings);
 
     /// Another scene, from its start; throws Error, and goes on with the one that there is, where it cannot be had.
     void open(const std::string& specification);
-    /// The scene from its start again, with the settings as they are now.
+    /// From the start again, with the settings as they are now.
     void reset();
     /// Goes on where it is on another device; throws Error, and stays, where that cannot be had.
     void move_to(DeviceKind);
@@ -49,7 +51,7 @@ public:
     void load(const std::filesystem::path&);
 
     const World& world() const noexcept { return *simulated; }
-    const scenes::Scene& scene() const noexcept { return source; }
+    const scenes::Scene& scene() const noexcept { return source.scene; }
     DeviceKind device() const noexcept { return simulated->device().kind; }
     const History& history() const noexcept { return past; }
     /// Counts up whenever the bodies are no longer those that they were: another scene, another world.
@@ -60,13 +62,20 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    /// Where playing starts.
+    struct Start {
+        scenes::Scene scene;              ///< of a snapshot: its name and a camera
+        std::optional<Snapshot> snapshot; ///< in the place of the scene's bodies
+    };
+
+    static Start find_start(const std::string& specification);
     World make_world(const Settings&, DeviceKind) const;
-    World fill_world(const scenes::Scene&, const Settings&, DeviceKind) const;
+    World world_at(const Start&, DeviceKind) const;
     void take(World&&);
 
     Adjust initial_settings;
     std::uint32_t threads;
-    scenes::Scene source;
+    Start source;
     std::unique_ptr<World> simulated;
     History past;
     std::uint64_t world_number = 0;

@@ -102,7 +102,7 @@ private:
     void files_dropped(const std::vector<std::filesystem::path>& files) override {
         busy_frames = k_frames_after_input;
         for (const std::filesystem::path& file : files)
-            bench.open_file(file);
+            bench.open(file.string());
     }
 
     enum class Drag { None, Turn, Pan };

@@ -43,19 +43,6 @@ void Workbench::open(const std::string& specification) {
     });
 }
 
-void Workbench::open_file(const fs::path& path) {
-    if (path.extension() != ".snapshot") {
-        open(path.string());
-        return;
-    }
-    attempt([&] {
-        let_go();
-        session.load(path);
-        newest_snapshot = path;
-        say("loaded " + path.string());
-    });
-}
-
 void Workbench::reset() {
     attempt([&] {
         let_go();
@@ -236,10 +223,15 @@ void Workbench::save_snapshot() {
 }
 
 void Workbench::load_snapshot() {
-    if (newest_snapshot.empty())
-        say("no snapshot was saved yet; drop a .snapshot file into the window to load it");
-    else
-        open_file(newest_snapshot);
+    if (newest_snapshot.empty()) {
+        say("no snapshot was saved yet; drop a .snapshot file into the window to open it");
+        return;
+    }
+    attempt([&] {
+        let_go();
+        session.load(newest_snapshot);
+        say("loaded " + newest_snapshot.string());
+    });
 }
 
 void Workbench::after_draw() {

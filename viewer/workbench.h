@@ -27,9 +27,8 @@ public:
     bool show_help = false;
 
     // ---- scenes ----
+    /// Also a file: a scene (.gltf, .glb) or a snapshot (.snapshot).
     void open(const std::string& specification);
-    /// A scene file or a snapshot, by its ending.
-    void open_file(const std::filesystem::path&);
     void reset();
     /// The same scene with another seed; says so where it has none.
     void reseed();

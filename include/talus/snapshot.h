@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include <talus/export.h>
 #include <talus/types.h>
 
 namespace talus {
@@ -17,7 +18,7 @@ struct SavedState;
 
 /// A world as it was: its bodies, its settings, the forces that wait for the next step, and what the solver remembers
 /// of the last one. `World::snapshot` makes it. A copy costs nothing: the content is shared, and never changes.
-class Snapshot {
+class TALUS_API Snapshot {
 public:
     /// Reads a file that `save` wrote. Throws Error where it cannot be read, is no snapshot, is damaged, or is of
     /// another version, and says which.

@@ -156,8 +156,9 @@ public:
     /// Makes the world what it was in a snapshot, of this world or of another, on whatever device that ran. Steps from
     /// here on give the same bits as they did there. Bodies that were added since are gone; those that were removed
     /// are there again, under their old ids. With a snapshot of another world come that world's bodies and ids, in the
-    /// place of all that were here. What gl_buffers() names has the restored state, but for the AABBs, which the next
-    /// step makes. Throws Error where there is no room for it.
+    /// place of all that were here. Contact events that were not taken yet are gone with their steps. What gl_buffers()
+    /// names has the restored state, but for the AABBs, which the next step makes. Throws Error where there is no room
+    /// for it.
     void restore(const Snapshot&);
 
     // ---- results of the last step (they wait for it) ----
