@@ -5,11 +5,12 @@
 
 #include <algorithm>
 
+#include "state/formulas.h"
 #include "step_results.h"
 
 namespace talus::engine {
 
-static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 8,
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 9,
               "another buffer survives the step: snapshots have to hold it too");
 
 std::size_t SavedState::bytes() const {
@@ -43,17 +44,19 @@ void Simulation::restore(const SavedState& saved) {
     std::vector<Pair> pairs;
     std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
     std::vector<ContactConstraint> constraints; // only what read_contacts reads: the next step makes them anew
+    std::vector<uint> states(pair_count, k_contact_apart);
     std::size_t next = 0;
     for (uint i = 0; i < pair_count; ++i) {
         const Manifold& manifold = saved.manifolds[i];
         pairs.push_back({manifold.body_a, manifold.body_b});
-        if (manifold.point_count == 0) continue;
-        ContactConstraint& constraint = constraints.emplace_back();
+        ContactConstraint constraint{};
         constraint.manifold = i;
         for (uint k = 0; k < manifold.point_count; ++k, ++next) {
             points[std::size_t{4} * i + k] = saved.points[next];
             constraint.total_impulse[static_cast<int>(k)] = saved.impulses[next];
+            if (touches_at(saved.points[next].separation, saved.impulses[next], false)) states[i] = k_contact_touches;
         }
+        if (is_active(manifold)) constraints.push_back(constraint);
     }
     const auto write_all = [this](BufferId buffer, const auto& records) {
         if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));
@@ -62,6 +65,7 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::OldManifolds, saved.manifolds);
     write_all(BufferId::OldManifoldPoints, points);
     write_all(BufferId::Constraints, constraints);
+    if (plan.watch != ContactWatch::None) write_all(BufferId::OldContactStates, states);
     write_all(BufferId::Counters, saved.counters);
 
     finished_count = saved.report.step;

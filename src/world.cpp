@@ -131,6 +131,8 @@ struct World::Impl {
 
     void restore(const SavedState& saved) {
         const CallersContext callers(own_context);
+        simulation.settle();
+        collect_events();
         simulation.restore(saved);
         simulation.set_settings(saved.settings);
         settings = saved.settings;
