@@ -233,6 +233,30 @@ TEST_P(ContactEvents, come_while_they_are_watched) {
               std::string::npos);
 }
 
+TEST_P(ContactEvents, go_on_from_a_world_that_was_brought_back) {
+    World world = make_world();
+    world.add(mixed_bodies_and_sensors());
+    world.watch_contacts(ContactWatch::Changes);
+    world.step(30);
+    const Snapshot before = world.snapshot();
+    const std::vector<Contact> contacts = world.contacts();
+    world.take_contact_events();
+    world.step(15);
+    const std::vector<std::string> events = words_of(world.take_contact_events());
+    EXPECT_GT(events.size(), 5u);
+    world.restore(before);
+    const std::vector<Contact> again = world.contacts();
+    ASSERT_EQ(again.size(), contacts.size());
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        EXPECT_EQ(again[i].sensor, contacts[i].sensor);
+        ASSERT_EQ(again[i].points.size(), contacts[i].points.size());
+        for (std::size_t k = 0; k < contacts[i].points.size(); ++k)
+            EXPECT_EQ(again[i].points[k].normal_impulse, contacts[i].points[k].normal_impulse);
+    }
+    world.step(15);
+    EXPECT_EQ(words_of(world.take_contact_events()), events);
+}
+
 // ---- sensors ----
 
 TEST_P(ContactEvents, of_sensors_tell_who_is_inside_and_nobody_is_pushed) {

@@ -26,9 +26,9 @@ public:
     /// Writes all or nothing; an existing file is replaced. Throws Error where it cannot be written.
     void save(const std::filesystem::path&) const;
 
-    std::uint64_t step() const noexcept; ///< how many steps the world had made
-    std::size_t body_count() const noexcept;
-    std::size_t bytes() const noexcept; ///< of memory that it holds
+    std::uint64_t step() const noexcept;     ///< how many steps the world had made
+    std::size_t body_count() const noexcept; ///< that the world had
+    std::size_t bytes() const noexcept;      ///< of memory that it holds
 
 private:
     friend class World;
