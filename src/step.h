@@ -27,7 +27,7 @@ struct StepPlan {
     bool in_groups = false;   ///< work groups solve islands: each of a small world, the little ones of a large world
     uint least_substeps = 0;
     uint most_substeps = 0;
-    uint substep_capacity = 0; ///< sub-steps that get launches
+    uint substep_capacity = 1; ///< sub-steps that get launches: some, until it is known that none are needed
     uint iterations = 0;
     bool relax = false;
     bool bounces = false; ///< some body has a restitution above 0

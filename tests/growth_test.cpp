@@ -59,11 +59,11 @@ TEST_P(Growth, of_bodies_and_pairs_gives_the_same_bits_with_the_tree) {
 }
 
 TEST_P(Growth, of_colours_gives_the_same_bits_in_a_large_world) {
-    // More bodies than one work group solves, so that each colour has a launch of its own.
+    // More bodies in an island than one work group solves, so that each colour has a launch of its own.
     World tiny = world_with({1, 16'384, 1}), ample = world_with({2'048, 16'384, 64});
     for (World* world : {&tiny, &ample}) {
-        world->add(bodies_of("columns:side=11,height=9"));
-        world->step(6);
+        world->add(bodies_of("pyramid:base=46"));
+        world->step(4);
     }
     EXPECT_GT(tiny.report().growths, 0u);
     EXPECT_EQ(ample.report().growths, 0u);
