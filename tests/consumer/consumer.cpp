@@ -19,6 +19,7 @@ int main() {
     talus::World world({}, options);
     const talus::BodyId box = world.add(talus::BodyDefinition{});
     world.step(60);
+    world.restore(world.snapshot());
     Lines lines;
     talus::draw_debug(world, lines);
     try {
