@@ -16,7 +16,7 @@ wall width=40,height=20 60
 columns side=20,height=10 30
 grid stacks=200 30
 pile boxes=1500 300
-rubble boxes=600 300
+rubble boxes=4000,ratio=8 100
 card_house levels=5 120
 dominoes count=100 220
 slope angle=30 200
