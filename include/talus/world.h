@@ -176,8 +176,8 @@ public:
     /// it finds as begun. Waits for the steps on their way.
     void watch_contacts(ContactWatch);
     /// All events since the last call of either function, in the order of steps, and in each step of the bodies'
-    /// indices. Waits for the last step. None is ever left out; until they are taken they stay in the host's memory. Only
-    /// restore() drops what has not been taken: it belongs to steps that are undone.
+    /// indices. Waits for the last step. None is ever left out; until they are taken they stay in the host's memory.
+    /// Only restore() drops what has not been taken: it belongs to steps that are undone.
     std::vector<ContactEvent> take_contact_events();
     /// The same without waiting: those of the steps that are finished by now.
     std::vector<ContactEvent> take_finished_contact_events();

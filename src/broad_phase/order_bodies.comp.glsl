@@ -30,6 +30,13 @@ shared SpreadSum sums[k_spread_group];
 shared SpreadSum group_sums[k_spread_groups];
 shared SweepAxis sweep_axis;
 
+// A coherent block's member is no argument: NVIDIA's compiler refuses it.
+Aabb load_aabb(uint body)
+{
+    AabbCells box = aabbs[body];
+    return unpack(box);
+}
+
 // A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis. What it
 // returns is right for the first invocation.
 SpreadSum measure_spread()
@@ -42,8 +49,7 @@ SpreadSum measure_spread()
         if (me < k_spread_group) {
             sums[me] = empty_spread();
             if (body < parameters.body_count) {
-                Aabb box = unpack(aabbs[body]);
-                sums[me] = spread_of(box);
+                sums[me] = spread_of(load_aabb(body));
             }
         }
         for (uint half_size = k_spread_group / 2u; half_size > 0u; half_size /= 2u) {
@@ -76,8 +82,7 @@ void main()
     for (uint place = me; place < room; place += gl_WorkGroupSize.x) {
         sorted_keys[place] = 0xffffffffu;
         if (place < body_count) {
-            Aabb box = unpack(aabbs[place]);
-            sorted_keys[place] = sweep_key(box, sweep_axis);
+            sorted_keys[place] = sweep_key(load_aabb(place), sweep_axis);
         }
         old_places[place] = place;
     }
