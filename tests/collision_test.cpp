@@ -560,7 +560,7 @@ TEST(BoxBox, reduction_keeps_the_deepest_of_any_polygon_and_no_more_than_four) {
             vec3& point = candidates.points[slot];
             point.y *= samples.number(0.5f, 1.0f);
             point.z = samples.number(-0.01f, 0.01f);
-            if (is_present(candidates.present, slot)) lowest = std::min(lowest, point.z);
+            if (is_present(candidates, slot)) lowest = std::min(lowest, point.z);
         }
         const Picks kept = reduce_points(candidates, no_carriers());
         ASSERT_EQ(kept.count, static_cast<uint>(std::popcount(features_of(kept)))) << "no point is kept twice";

@@ -75,7 +75,10 @@ struct Candidates {
     uint present; // a bit a slot
 };
 
-inline bool is_present(uint present, uint slot) { return ((present >> slot) & 1u) != 0u; }
+inline bool is_present(Candidates candidates, uint slot)
+{
+    return ((candidates.present >> slot) & 1u) != 0u;
+}
 
 // The part of an edge that is inside the side planes seen so far, as fractions of its length.
 struct EdgeSpan {
@@ -131,8 +134,8 @@ inline Candidates clip_face(IncidentFace face, float half_u, float half_v, float
 {
     Candidates candidates;
     candidates.present = 0u;
-    vec3 from = corner_of(face, 0u);
     for (uint i = 0u; i < 4u; i += 1u) {
+        vec3 from = corner_of(face, i);
         vec3 to = corner_of(face, (i + 1u) & 3u);
         EdgeSpan span = clip_edge(from, to, half_u, half_v, face.label + ((i + 3u) & 3u));
         precise vec3 edge = to - from;
@@ -145,7 +148,6 @@ inline Candidates clip_face(IncidentFace face, float half_u, float half_v, float
         candidates.points[2u * i + 1u] = end;
         candidates.features[2u * i + 1u] = feature_between(face.label + i, span.after);
         if (is_inside && span.leave < 1.5f && end.z <= max_separation) candidates.present |= 2u << (2u * i);
-        from = to;
     }
     precise float tie = k_tie * (half_u + half_v + face.half_u + face.half_v);
     precise float reach_u = face.area + tie * face.half_v;

@@ -40,13 +40,13 @@ inline Pick no_pick(vec3 point, uint feature)
 
 inline bool is_picked(Pick pick) { return pick.score > k_no_score; }
 
-inline Pick better_pick(Pick best, vec3 point, uint feature, uint worth, float gain)
+inline Pick better_pick(Pick best, Candidates candidates, uint slot, uint worth, float gain)
 {
     uint score = score_of(worth, gain);
     if (score > best.score) {
         best.score = score;
-        best.feature = feature;
-        best.point = point;
+        best.feature = candidates.features[slot];
+        best.point = candidates.points[slot];
     }
     return best;
 }
@@ -90,7 +90,7 @@ inline Picks reduce_points(Candidates candidates, Carriers carriers)
     uint count = 0u;
     Pick deepest = no_pick(vec3(0.0f, 0.0f, k_far_apart), 0u);
     for (uint i = 0u; i < k_candidate_count; i += 1u) {
-        if (is_present(candidates.present, i)) {
+        if (is_present(candidates, i)) {
             precise vec3 more = sum + candidates.points[i];
             sum = more;
             count += 1u;
@@ -106,45 +106,36 @@ inline Picks reduce_points(Candidates candidates, Carriers carriers)
     for (uint i = 0u; i < k_candidate_count; i += 1u) {
         uint worth = candidates.points[i].z <= near ? k_worth_near : k_worth_far;
         if (carried_load(carriers, candidates.features[i])) worth = k_worth_carrying;
-        if (is_present(candidates.present, i)) worths |= worth << (2u * i);
+        if (is_present(candidates, i)) worths |= worth << (2u * i);
     }
 
     vec3 middle = scale3(sum, reciprocal(float(max(count, 1u))));
     Pick first = deepest;
-    for (uint i = 0u; i < k_candidate_count; i += 1u) {
-        vec3 p = candidates.points[i];
-        first = better_pick(first, p, candidates.features[i], worth_of(worths, i), square_apart(middle, p));
-    }
+    for (uint i = 0u; i < k_candidate_count; i += 1u)
+        first = better_pick(first, candidates, i, worth_of(worths, i), square_apart(middle, candidates.points[i]));
     precise float higher = first.point.z - deepest.point.z;
     if (higher > k_depth_tie) first = deepest;
     vec3 a = first.point;
 
     Pick second = no_pick(a, first.feature);
-    for (uint i = 0u; i < k_candidate_count; i += 1u) {
-        vec3 p = candidates.points[i];
-        second = better_pick(second, p, candidates.features[i], worth_of(worths, i), square_apart(a, p));
-    }
+    for (uint i = 0u; i < k_candidate_count; i += 1u)
+        second = better_pick(second, candidates, i, worth_of(worths, i), square_apart(a, candidates.points[i]));
     vec3 b = second.point;
 
     Pick third = no_pick(a, first.feature);
     for (uint i = 0u; i < k_candidate_count; i += 1u) {
-        vec3 p = candidates.points[i];
-        float area = abs(triangle_area(a, b, p));
-        third = better_pick(third, p, candidates.features[i], min(worth_of(worths, i), k_worth_near), area);
+        float area = abs(triangle_area(a, b, candidates.points[i]));
+        third = better_pick(third, candidates, i, min(worth_of(worths, i), k_worth_near), area);
     }
-
     // Anticlockwise, the area beyond a side is negative.
     bool is_clockwise = triangle_area(a, b, third.point) < 0.0f;
-    vec3 c = third.point;
-    if (is_clockwise) {
-        c = b;
-        b = third.point;
-    }
+    vec3 c = is_clockwise ? b : third.point;
+    b = is_clockwise ? third.point : b;
     Pick fourth = no_pick(a, first.feature);
     for (uint i = 0u; i < k_candidate_count; i += 1u) {
         vec3 p = candidates.points[i];
         float inside = min(triangle_area(a, b, p), min(triangle_area(b, c, p), triangle_area(c, a, p)));
-        fourth = better_pick(fourth, p, candidates.features[i], min(worth_of(worths, i), k_worth_near), -inside);
+        fourth = better_pick(fourth, candidates, i, min(worth_of(worths, i), k_worth_near), -inside);
     }
 
     Picks kept;
