@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Box against box: separating axis test, then a contact of faces or edges (thesis, section 3.3). Needs
-// narrow_phase/clip_face.shared.glsl and narrow_phase/reduce_points.shared.glsl.
+// Box against box: separating axis test, clipping, reduction (thesis, section 3.3).
 //
 // A separating axis is named by a number: 0-2 a face of A with that axis as its normal, 3-5 a face of B, 6 + 3 i + j
 // the cross product of A's edge i and B's edge j. The thesis queries vertices (algorithms 5 and 6); a box's support
@@ -13,6 +12,15 @@ const float k_face_preference = 2.5e-3f;
 const float k_axis_persistence = 1.0e-3f;
 // Edges within about 2 degrees of parallel have no usable cross product; the faces cover them.
 const float k_parallel = 1.0e-3f;
+// A point that is not this much deeper than a corner of the contact's outline is not worth giving up the corner (m).
+const float k_depth_tie = 1.0e-3f;
+// A point that is this much farther above the other box than the deepest one, or than its surface, carries nothing soon
+// (m).
+const float k_near = 2.5e-3f;
+// What a point is worth, however large the area that it gives.
+const uint k_worth_far = 0u;
+const uint k_worth_near = 1u;
+const uint k_worth_carrying = 2u; // it carried load in the last step
 
 struct BoxPair {
     Axes a;
@@ -74,6 +82,185 @@ inline AxisQuery query_axes(BoxPair p, uint old_axis)
 
 // ---- face contact ----
 
+// A convex polygon in the reference face's frame: x and y along the face, z above it. Edge i runs from point i to the
+// next and carries a label: 0-3 an edge of the incident face, 4-7 a side plane of the reference face.
+struct Polygon {
+    vec3 points[8];
+    uint labels[8];
+    uint count;
+};
+
+// Sutherland-Hodgman against one side plane (algorithm 7): keeps what has sign * (x or y) <= limit.
+inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit, uint label)
+{
+    Polygon result;
+    result.count = 0u;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        uint next = i + 1u < polygon.count ? i + 1u : 0u;
+        vec3 from = polygon.points[i];
+        vec3 to = polygon.points[next];
+        precise float distance_from = sign * component(from, axis) - limit;
+        precise float distance_to = sign * component(to, axis) - limit;
+        bool inside_from = distance_from <= 0.0f;
+        bool inside_to = distance_to <= 0.0f;
+        if (inside_from && result.count < 8u) {
+            result.points[result.count] = from;
+            result.labels[result.count] = polygon.labels[i];
+            result.count += 1u;
+        }
+        if (inside_from != inside_to && result.count < 8u) {
+            precise float t = distance_from * reciprocal(distance_from - distance_to);
+            precise vec3 crossing = from + (to - from) * t;
+            result.points[result.count] = crossing;
+            // On the way out the next edge runs along the plane; on the way in it is the rest of this edge.
+            result.labels[result.count] = inside_from ? label : polygon.labels[i];
+            result.count += 1u;
+        }
+    }
+    return result;
+}
+
+// The face of the incident box which looks most against the reference normal, as a polygon in the reference frame.
+// `r`: incident axes in the reference frame's directions (u, v, n); `centre`: incident centre there.
+inline Polygon incident_face(Axes r, vec3 half_extents, vec3 centre)
+{
+    uint axis = 0u;
+    if (abs(r.y.z) > abs(r.x.z)) axis = 1u;
+    if (abs(r.z.z) > max(abs(r.x.z), abs(r.y.z))) axis = 2u;
+    vec3 face_normal = axis_of(r, axis);
+    float side = face_normal.z > 0.0f ? -1.0f : 1.0f;
+    uint axis_u = axis == 2u ? 0u : axis + 1u;
+    uint axis_v = axis_u == 2u ? 0u : axis_u + 1u;
+    precise vec3 middle = centre + face_normal * (side * component(half_extents, axis));
+    precise vec3 u = axis_of(r, axis_u) * component(half_extents, axis_u);
+    precise vec3 v = axis_of(r, axis_v) * component(half_extents, axis_v);
+    precise vec3 p0 = middle + u + v;
+    precise vec3 p1 = middle - u + v;
+    precise vec3 p2 = middle - u - v;
+    precise vec3 p3 = middle + u - v;
+    Polygon polygon;
+    polygon.count = 4u;
+    polygon.points[0] = p0;
+    polygon.points[1] = p1;
+    polygon.points[2] = p2;
+    polygon.points[3] = p3;
+    for (uint i = 0u; i < 4u; i += 1u) {
+        // The face is part of the label, so that a point on another face is another feature.
+        polygon.labels[i] = i + 8u * (2u * axis + (side > 0.0f ? 1u : 0u));
+    }
+    return polygon;
+}
+
+// Twice the signed area of a triangle, seen in the reference face.
+inline float triangle_area(vec3 a, vec3 b, vec3 c)
+{
+    precise float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    return area;
+}
+
+// Point i's worth, of all points' in two bits each.
+inline uint worth_of(uint worths, uint i)
+{
+    return (worths >> (2u * i)) & 3u;
+}
+
+// The best candidate so far.
+struct Pick {
+    uint point;
+    uint worth;
+    float gain; // 0: none yet
+};
+
+inline Pick no_pick(uint point)
+{
+    Pick pick;
+    pick.point = point;
+    pick.worth = k_worth_far;
+    pick.gain = 0.0f;
+    return pick;
+}
+
+inline Pick better_pick(Pick best, uint point, uint worth, float gain)
+{
+    if (gain > 0.0f && (worth > best.worth || (worth == best.worth && gain > best.gain))) {
+        best.point = point;
+        best.worth = worth;
+        best.gain = gain;
+    }
+    return best;
+}
+
+// The name of a point: the edge that ends there, and the one that begins there.
+inline uint feature_between(uint label_before, uint label)
+{
+    return label_before * 64u + label;
+}
+
+inline uint feature_of(Polygon polygon, uint i)
+{
+    return feature_between(polygon.labels[i > 0u ? i - 1u : polygon.count - 1u], polygon.labels[i]);
+}
+
+// Which four points to keep of more (algorithm 8): the deepest, the farthest from it, the one that makes the largest
+// triangle with these, and the one that adds most area beyond its sides. Returns a bit a point.
+//
+// Differs from the thesis in two ways. Of points that are about as deep, the one farthest from the middle is taken
+// first: in a resting contact all are, and clipping leaves some amid a side; to start from one of those costs a corner,
+// and a tower rocks on the three that are left. And a larger area is no reason to give up what matters: the first two
+// are of those that carried load, and the others of those that are near. A box that stands on an edge has few of
+// either, and rocks for ever where one comes and goes.
+inline uint reduce_points(Polygon polygon, Carriers carriers)
+{
+    precise float inverse_count = reciprocal(float(polygon.count));
+    vec3 middle = vec3(0.0f, 0.0f, 0.0f);
+    uint deepest = 0u;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        middle = add_scaled(middle, polygon.points[i], inverse_count);
+        if (polygon.points[i].z < polygon.points[deepest].z) deepest = i;
+    }
+    precise float near = max(polygon.points[deepest].z, 0.0f) + k_near;
+    uint worths = 0u;
+    uint before = polygon.labels[polygon.count - 1u];
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        uint worth = polygon.points[i].z <= near ? k_worth_near : k_worth_far;
+        if (carried_load(carriers, feature_between(before, polygon.labels[i]))) worth = k_worth_carrying;
+        worths |= worth << (2u * i);
+        before = polygon.labels[i];
+    }
+    Pick first = no_pick(deepest);
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        precise vec3 d = polygon.points[i] - middle;
+        precise float square = d.x * d.x + d.y * d.y;
+        first = better_pick(first, i, worth_of(worths, i), square);
+    }
+    precise float deeper = polygon.points[first.point].z - polygon.points[deepest].z;
+    if (deeper > k_depth_tie) first.point = deepest;
+    vec3 a = polygon.points[first.point];
+    Pick second = no_pick(first.point);
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        precise vec3 d = polygon.points[i] - a;
+        precise float square = d.x * d.x + d.y * d.y;
+        second = better_pick(second, i, worth_of(worths, i), square);
+    }
+    vec3 b = polygon.points[second.point];
+    Pick third = no_pick(first.point);
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        float area = abs(triangle_area(a, b, polygon.points[i]));
+        third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), area);
+    }
+    vec3 c = polygon.points[third.point];
+    float turn = triangle_area(a, b, c) < 0.0f ? -1.0f : 1.0f;
+    Pick fourth = no_pick(first.point);
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        vec3 p = polygon.points[i];
+        // The area beyond a side is negative in the triangle's own orientation.
+        float inside = min(turn * triangle_area(a, b, p),
+                           min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
+        fourth = better_pick(fourth, i, min(worth_of(worths, i), k_worth_near), -inside);
+    }
+    return (1u << first.point) | (1u << second.point) | (1u << third.point) | (1u << fourth.point);
+}
+
 // The reference box is A; `axis` is its face's axis. `carriers`: of this axis.
 inline ContactGeometry face_contact(BoxPair p, uint axis, Carriers carriers, float max_separation)
 {
@@ -95,19 +282,24 @@ inline ContactGeometry face_contact(BoxPair p, uint axis, Carriers carriers, flo
     incident.z = to_local(frame, p.b.z);
     precise vec3 centre = to_local(frame, p.offset) - vec3(0.0f, 0.0f, half_n);
 
-    Candidates candidates = clip_face(incident_face(incident, p.half_b, centre), half_u, half_v, max_separation);
-    Picks kept = reduce_points(candidates, carriers);
+    Polygon polygon = incident_face(incident, p.half_b, centre);
+    polygon = clip_polygon(polygon, 0u, 1.0f, half_u, 4u);
+    polygon = clip_polygon(polygon, 0u, -1.0f, half_u, 5u);
+    polygon = clip_polygon(polygon, 1u, 1.0f, half_v, 6u);
+    polygon = clip_polygon(polygon, 1u, -1.0f, half_v, 7u);
+
     ContactGeometry g = no_contact();
     g.normal = frame.z;
-    g.count = kept.count;
-    for (uint i = 0u; i < 4u; i += 1u) {
-        vec3 point = kept.picks[i].point;
-        // Projected on the reference face, then moved half-way to the incident one.
-        precise vec3 local = vec3(point.x, point.y, half_n + 0.5f * point.z);
-        if (i < kept.count) {
-            g.points[i] = to_world(frame, local);
-            g.separations[i] = point.z;
-            g.features[i] = kept.picks[i].feature;
+    uint kept = polygon.count > 4u ? reduce_points(polygon, carriers) : 0xffu;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        float separation = polygon.points[i].z;
+        if (((kept >> i) & 1u) != 0u && separation <= max_separation && g.count < 4u) {
+            // Projected on the reference face, then moved half-way to the incident one.
+            precise vec3 local = vec3(polygon.points[i].x, polygon.points[i].y, half_n + 0.5f * separation);
+            g.points[g.count] = to_world(frame, local);
+            g.separations[g.count] = separation;
+            g.features[g.count] = feature_of(polygon, i);
+            g.count += 1u;
         }
     }
     return g;

@@ -16,15 +16,13 @@ const float k_steps_ahead = 2.0f;
 const float k_graze_steps = 8.0f;
 
 // Whether a contact spreads along both directions of its plane. Bodies that touch so need no second look:
-// the side of the next tile meets a box in a strip as high as the overlap, of which any three points have two at one
-// end.
+// the side of the next tile meets a box in a strip as high as the overlap.
 inline bool is_broad(ContactGeometry g)
 {
     const float least = 4.0f * k_graze * k_graze;
     precise vec3 u = g.points[1] - g.points[0];
     precise vec3 v = g.points[2] - g.points[1];
-    precise vec3 w = g.points[0] - g.points[2];
-    return g.count == 4u && dot3(u, u) > least && dot3(v, v) > least && dot3(w, w) > least;
+    return g.count == 4u && dot3(u, u) > least && dot3(v, v) > least;
 }
 
 // `motion`: of B as seen from A, in this step (m). Rotation is left out of account.

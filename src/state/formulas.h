@@ -21,9 +21,6 @@ namespace talus::engine {
 
 #include "narrow_phase/contact_geometry.shared.glsl"
 
-#include "narrow_phase/clip_face.shared.glsl"
-#include "narrow_phase/reduce_points.shared.glsl"
-
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
