@@ -14,9 +14,8 @@ namespace {
 
 bool matches(const scenes::SceneInfo& scene, const std::string& search) {
     const auto contains = [&search](const std::string& text) {
-        return !std::ranges::search(text, search,
-                                    [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); })
-                    .empty() ||
+        const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+        return std::search(text.begin(), text.end(), search.begin(), search.end(), same) != text.end() ||
                search.empty();
     };
     return contains(scene.name) || contains(scene.summary);
