@@ -68,13 +68,16 @@ void main()
 
     BodyPose pose_a = unpack(poses[pair.body_a]);
     BodyPose pose_b = unpack(poses[pair.body_b]);
+    BodyShape shape_a = unpack(shapes[pair.body_a]);
+    BodyShape shape_b = unpack(shapes[pair.body_b]);
     precise vec3 offset = pose_b.position - pose_a.position;
-    precise vec3 motion = (unpack(velocities[pair.body_b]).linear - unpack(velocities[pair.body_a]).linear) * parameters.dt;
+    precise vec3 motion =
+        (unpack(velocities[pair.body_b]).linear - unpack(velocities[pair.body_a]).linear) * parameters.dt;
     precise float max_separation = parameters.speculative_distance + length3(motion);
-    ContactGeometry g = collide_moving_shapes(pose_a, unpack(shapes[pair.body_a]), pose_b, unpack(shapes[pair.body_b]), motion,
-                                              carriers, max_separation);
-    bool sensed = is_sensed(unpack(shapes[pair.body_a]), unpack(shapes[pair.body_b]));
-    if (sensed && !can_meet(unpack(shapes[pair.body_a]), unpack(shapes[pair.body_b]))) g.count = 0u;
+    ContactGeometry g =
+        collide_moving_shapes(pose_a, shape_a, pose_b, shape_b, motion, carriers, max_separation);
+    bool sensed = is_sensed(shape_a, shape_b);
+    if (sensed && !can_meet(shape_a, shape_b)) g.count = 0u;
 
     // The rest of the last manifold is read here, as registers are short in the collision.
     Manifold manifold = make_manifold(pair, g, unpack(properties[pair.body_a]), unpack(properties[pair.body_b]));
@@ -82,7 +85,7 @@ void main()
     if (old_index != k_none) {
         manifold = carry_over(manifold, unpack(old_manifolds[old_index]), parameters);
         match = match_points(g, read_old_points(old_index));
-    } else if (is_placed(pose_a, unpack(shapes[pair.body_a])) && is_placed(pose_b, unpack(shapes[pair.body_b]))) {
+    } else if (is_placed(pose_a, shape_a) && is_placed(pose_b, shape_b)) {
         manifold = begin_trial(manifold, parameters);
     }
     if (sensed) manifold = make_sensed(manifold);
