@@ -3,7 +3,6 @@
 //   uint slot_of(uint body), where a body's velocity is found
 //   BodyVelocity load_velocity(uint slot)
 //   void store_velocity(uint slot, BodyVelocity velocity)
-//   Substep substep_of(uint substeps, bool against_static)
 //   const bool k_bounces, whether there may be a restitution above 0
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
@@ -75,7 +74,7 @@ PassTarget target_of_pass(uint pass)
 {
     BodyDelta delta_a = load_delta(body_a);
     BodyDelta delta_b = load_delta(body_b);
-    Substep substep = substep_of(substeps, is_against_static(traits));
+    Substep substep = make_substep(substeps, is_against_static(traits), parameters);
     bool moves = pass != k_relax && is_against_static(traits);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
@@ -113,7 +112,7 @@ ManifoldState pass_over_hit(uint index, float old_share)
     BodyDelta delta_a = load_delta(body_a);
     BodyDelta delta_b = load_delta(body_b);
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
-    Substep substep = substep_of(substeps, is_against_static(traits));
+    Substep substep = make_substep(substeps, is_against_static(traits), parameters);
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
     vec4 closing = closing_speeds(separations, substep.inv_h);
     ManifoldState before = begin_pass();

@@ -26,7 +26,6 @@ layout(std430) writeonly buffer HubChanges { HubChange hub_changes[]; };
 uint slot_of(uint body) { return body; }
 BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
-Substep substep_of(uint substeps, bool against_static) { return make_substep(substeps, against_static, parameters); }
 
 const bool k_bounces = !k_hubs;
 

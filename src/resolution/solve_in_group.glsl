@@ -40,8 +40,6 @@ void store_velocity(uint slot, BodyVelocity velocity)
     angular[3u * slot + 2u] = velocity.angular.z;
 }
 
-Substep substep_of(uint substeps, bool against_static) { return make_substep(substeps, against_static, parameters); }
-
 const bool k_hubs = false; // their islands are solved with a launch for each colour
 void put_change(uint index, HubChange change) {}
 
