@@ -10,6 +10,7 @@
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 1024) in;
@@ -33,7 +34,7 @@ uvec2 joined_by(uint pair)
 {
     uint body_a = manifolds[pair].body_a;
     uint body_b = manifolds[pair].body_b;
-    if (manifolds[pair].point_count == 0u || manifolds[pair].colour == k_inactive_colour) return uvec2(0u);
+    if (!is_active(manifolds[pair])) return uvec2(0u);
     touches[body_a] = true;
     touches[body_b] = true;
     return roots[body_a] != k_none && roots[body_b] != k_none ? uvec2(body_a, body_b) : uvec2(0u);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "device/cpu/cpu_state.h"
+#include "resolution/island_roots.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
@@ -14,15 +15,6 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
     const uint pair_count = state.counters[k_counter_pair_count];
     std::vector<uint> roots(body_count);
     std::iota(roots.begin(), roots.end(), 0u);
-    const auto root_of = [&](uint body) {
-        while (roots[body] != body)
-            body = roots[body] = roots[roots[body]];
-        return body;
-    };
-    const auto join = [&](uint a, uint b) {
-        const uint root_a = root_of(a), root_b = root_of(b);
-        roots[max(root_a, root_b)] = min(root_a, root_b);
-    };
 
     std::vector<bool> touches(body_count, false);
     for (uint pair = 0; pair < pair_count && launch.args[0] == 0; ++pair) {
@@ -30,18 +22,18 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
         if (!is_active(manifold)) continue;
         touches[manifold.body_a] = touches[manifold.body_b] = true;
         if (is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]))
-            join(manifold.body_a, manifold.body_b);
+            join_islands_of(roots, manifold.body_a, manifold.body_b);
     }
     // Bodies that touch nothing share an island; and so do all, if all are to be one.
     uint first_mover = k_none;
     for (uint body = 0; body < body_count; ++body) {
         if (touches[body] || !is_mover(state.shapes[body])) continue;
         first_mover = min(first_mover, body);
-        join(body, first_mover);
+        join_islands_of(roots, body, first_mover);
     }
 
     for (uint body = 0; body < body_count; ++body) {
-        state.islands[body] = is_mover(state.shapes[body]) ? root_of(body) : k_none;
+        state.islands[body] = is_mover(state.shapes[body]) ? root_of(roots, body) : k_none;
         state.substeps[body] = state.parameters.least_substeps;
     }
     for (uint pair = 0; pair < pair_count; ++pair) {

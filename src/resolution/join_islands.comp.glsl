@@ -6,6 +6,8 @@
 // Writes: Islands, Substeps. Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_islands.
 // Overflow: none.
+#include "resolution/colouring.shared.glsl"
+
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
@@ -47,7 +49,7 @@ void main()
     uint pair = item_index();
     if (pair >= counters[k_counter_pair_count]) return;
     Manifold manifold = unpack(manifolds[pair]);
-    if (manifold.point_count == 0u || manifold.colour == k_inactive_colour) return;
+    if (!is_active(manifold)) return;
     bool pushes_a = islands[manifold.body_a] != k_none;
     bool pushes_b = islands[manifold.body_b] != k_none;
     if (pushes_a) atomicMax(substeps[manifold.body_a], manifold.substeps);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of join_islands.comp.glsl.
 #include "device/cpu/cpu_state.h"
+#include "resolution/island_roots.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
@@ -8,11 +9,6 @@ namespace talus::engine {
 
 static void join_islands_on_cpu(CpuState& state, const Launch&) {
     const Array<uint>& islands = state.islands;
-    const auto root_of = [&](uint body) {
-        while (islands[body] != body)
-            body = islands[body] = islands[islands[body]];
-        return body;
-    };
     for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
@@ -20,8 +16,7 @@ static void join_islands_on_cpu(CpuState& state, const Launch&) {
         if (islands[a] != k_none) state.substeps[a] = max(state.substeps[a], manifold.substeps);
         if (islands[b] != k_none) state.substeps[b] = max(state.substeps[b], manifold.substeps);
         if (islands[a] == k_none || islands[b] == k_none) continue;
-        const uint root_a = root_of(a), root_b = root_of(b);
-        islands[max(root_a, root_b)] = min(root_a, root_b);
+        join_islands_of(islands, a, b);
     }
 }
 
