@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "state/formulas.h"
+
 namespace talus::engine {
 
 template <typename T> static ReadRequest read_into(BufferId buffer, std::vector<T>& records) {
@@ -30,10 +32,11 @@ ContactRecords read_contacts(Simulation& simulation) {
     simulation.state_device().read(std::array{read_into(BufferId::OldManifolds, contacts.manifolds),
                                               read_into(BufferId::OldManifoldPoints, contacts.points),
                                               read_into(BufferId::Constraints, constraints)});
-    for (const ContactConstraint& c : constraints)
+    for (const ContactConstraint& c : constraints) {
+        const vec4 impulses = impulses_in_step(c);
         for (int i = 0; i < 4; ++i)
-            contacts.impulses[std::size_t{4} * c.manifold + static_cast<std::size_t>(i)] =
-                c.total_impulse[i] + c.hit_impulse[i];
+            contacts.impulses[std::size_t{4} * c.manifold + static_cast<std::size_t>(i)] = impulses[i];
+    }
     return contacts;
 }
 

@@ -5,6 +5,7 @@
 // Writes: ContactImpulses, of the pairs that the solver treats.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
+#include "finish/contact_report.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -17,8 +18,7 @@ void main()
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
     ContactConstraint c = unpack(constraints[index]);
-    precise vec4 impulse = c.total_impulse + c.hit_impulse;
     ContactImpulse gathered;
-    gathered.normal_impulse = impulse;
+    gathered.normal_impulse = impulses_in_step(c);
     contact_impulses[c.manifold] = pack(gathered);
 }
