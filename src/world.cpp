@@ -375,6 +375,7 @@ void World::wait() const {
     const CallersContext callers(impl_->own_context);
     impl_->simulation.settle();
 }
+
 Snapshot World::snapshot() const {
     impl_->refresh();
     const CallersContext callers(impl_->own_context);

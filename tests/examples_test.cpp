@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -16,6 +14,7 @@
 
 #include "tests/devices.h"
 #include "tests/shell.h"
+#include "tests/text_of.h"
 
 namespace talus::tests {
 namespace {
@@ -23,12 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path k_sources = TALUS_SOURCE_FOLDER "/examples";
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    EXPECT_TRUE(file) << path << " cannot be read";
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::size_t line_count(const fs::path& path) {
     const std::string text = text_of(path);

@@ -2,8 +2,6 @@
 // The guide: each piece of C++ compiles, runs, and prints the block of text that stands behind it; no page is left out
 // of the index, and each built-in scene has its picture.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -13,6 +11,7 @@
 
 #include "scenes/scene.h"
 #include "tests/guide_examples.h"
+#include "tests/text_of.h"
 
 namespace talus::tests {
 namespace {
@@ -20,12 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path k_guide = TALUS_SOURCE_FOLDER "/docs/guide";
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    EXPECT_TRUE(file) << path << " cannot be read";
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// For each piece of C++ on a page what it is said to print.
 std::vector<std::string> outputs_on(const fs::path& page) {

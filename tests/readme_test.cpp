@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -19,6 +17,7 @@
 
 #include "scenes/scene.h"
 #include "tests/shell.h"
+#include "tests/text_of.h"
 
 namespace {
 
@@ -26,14 +25,9 @@ using talus::tests::run_in_shell;
 using talus::tests::ShellEnding;
 
 namespace fs = std::filesystem;
+using talus::tests::text_of;
 
 const fs::path k_root = TALUS_SOURCE_FOLDER;
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    EXPECT_TRUE(file) << path << " cannot be read";
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
