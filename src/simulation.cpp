@@ -201,11 +201,12 @@ void Simulation::step(const Population& population, bool with_poses) {
 StepPlan Simulation::plan_step(const Population& population) const {
     const Passes passes = passes_of(settings);
     StepPlan now = plan;
-    now.broad_phase = settings.broad_phase;
     now.body_count = population.slots;
     now.iterations = passes.iterations;
     now.relax = passes.relax;
     now.small = population.slots <= k_island_bodies;
+    now.broad_phase = settings.broad_phase;
+    if (now.broad_phase == BroadPhase::Auto) now.broad_phase = now.small ? BroadPhase::SweepAndPrune : BroadPhase::Bvh;
     now.one_island = population.some_kinematic;
     const bool one_group_each = now.small && plan.hub_capacity == 0;
     now.in_groups = (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
@@ -228,6 +229,7 @@ void Simulation::enqueue(const Pending& wanted) {
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);
     Pending entry = wanted;
     entry.ticket = engine::step(placement, now, wanted.with_poses);
+    entry.broad_phase = now.broad_phase;
     pending.push_back(entry);
 }
 
@@ -270,6 +272,7 @@ void Simulation::finish_oldest() {
                                            report.step, counters[k_counter_frozen_bodies]));
     report.frozen_bodies = counters[k_counter_frozen_bodies];
     report.growths = growths;
+    report.broad_phase = done.broad_phase;
     const std::span<const double> stage_ms = device.stage_ms(done.ticket);
     report.stage_ms.assign(stage_ms.begin(), stage_ms.end());
     if (placement.hybrid()) {

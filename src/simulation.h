@@ -75,6 +75,7 @@ private:
         Ticket ticket;
         Population population;
         bool with_poses;
+        BroadPhase broad_phase = BroadPhase::Auto; // that the step used
     };
 
     void write_bytes(BufferId, std::size_t offset, std::span<const std::byte>);
