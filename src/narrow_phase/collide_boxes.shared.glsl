@@ -4,6 +4,7 @@
 // A separating axis is named by a number: 0-2 a face of A with that axis as its normal, 3-5 a face of B, 6 + 3 i + j
 // the cross product of A's edge i and B's edge j. The thesis queries vertices (algorithms 5 and 6); a box's support
 // point along an axis is known from its half extents, so the distances below are the same in closed form.
+// Needs narrow_phase/contact_geometry.shared.glsl, and narrow_phase/polygon.glsl or polygon.h.
 
 // An edge contact must be this much less deep than every face contact to be taken (m). A face gives up to four points
 // where an edge gives one, and in a resting stack the two tie.
@@ -82,39 +83,26 @@ inline AxisQuery query_axes(BoxPair p, uint old_axis)
 
 // ---- face contact ----
 
-// A convex polygon in the reference face's frame: x and y along the face, z above it. Edge i runs from point i to the
-// next and carries a label: 0-3 an edge of the incident face, 4-7 a side plane of the reference face.
-struct Polygon {
-    vec3 points[8];
-    uint labels[8];
-    uint count;
-};
+// A polygon is convex, in the reference face's frame: x and y along the face, z above it. Edge i runs from corner i to
+// the next and carries a label: 0-3 an edge of the incident face, 4-7 a side plane of the reference face.
 
 // Sutherland-Hodgman against one side plane (algorithm 7): keeps what has sign * (x or y) <= limit.
 inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit, uint label)
 {
-    Polygon result;
-    result.count = 0u;
+    Polygon result = polygon_beside(polygon);
     for (uint i = 0u; i < polygon.count; i += 1u) {
-        uint next = i + 1u < polygon.count ? i + 1u : 0u;
-        vec3 from = polygon.points[i];
-        vec3 to = polygon.points[next];
+        vec3 from = corner_of(polygon, i);
+        vec3 to = corner_of(polygon, i + 1u < polygon.count ? i + 1u : 0u);
         precise float distance_from = sign * component(from, axis) - limit;
         precise float distance_to = sign * component(to, axis) - limit;
         bool inside_from = distance_from <= 0.0f;
         bool inside_to = distance_to <= 0.0f;
-        if (inside_from && result.count < 8u) {
-            result.points[result.count] = from;
-            result.labels[result.count] = polygon.labels[i];
-            result.count += 1u;
-        }
-        if (inside_from != inside_to && result.count < 8u) {
+        if (inside_from) add_corner(result, from, label_of(polygon, i));
+        if (inside_from != inside_to) {
             precise float t = distance_from * reciprocal(distance_from - distance_to);
             precise vec3 crossing = from + (to - from) * t;
-            result.points[result.count] = crossing;
             // On the way out the next edge runs along the plane; on the way in it is the rest of this edge.
-            result.labels[result.count] = inside_from ? label : polygon.labels[i];
-            result.count += 1u;
+            add_corner(result, crossing, inside_from ? label : label_of(polygon, i));
         }
     }
     return result;
@@ -138,16 +126,13 @@ inline Polygon incident_face(Axes r, vec3 half_extents, vec3 centre)
     precise vec3 p1 = middle - u + v;
     precise vec3 p2 = middle - u - v;
     precise vec3 p3 = middle + u - v;
-    Polygon polygon;
-    polygon.count = 4u;
-    polygon.points[0] = p0;
-    polygon.points[1] = p1;
-    polygon.points[2] = p2;
-    polygon.points[3] = p3;
-    for (uint i = 0u; i < 4u; i += 1u) {
-        // The face is part of the label, so that a point on another face is another feature.
-        polygon.labels[i] = i + 8u * (2u * axis + (side > 0.0f ? 1u : 0u));
-    }
+    // The face is part of the label, so that a point on another face is another feature.
+    uint label = 8u * (2u * axis + (side > 0.0f ? 1u : 0u));
+    Polygon polygon = empty_polygon();
+    add_corner(polygon, p0, label);
+    add_corner(polygon, p1, label + 1u);
+    add_corner(polygon, p2, label + 2u);
+    add_corner(polygon, p3, label + 3u);
     return polygon;
 }
 
@@ -198,7 +183,7 @@ inline uint feature_between(uint label_before, uint label)
 
 inline uint feature_of(Polygon polygon, uint i)
 {
-    return feature_between(polygon.labels[i > 0u ? i - 1u : polygon.count - 1u], polygon.labels[i]);
+    return feature_between(label_of(polygon, i > 0u ? i - 1u : polygon.count - 1u), label_of(polygon, i));
 }
 
 // Which four points to keep of more (algorithm 8): the deepest, the farthest from it, the one that makes the largest
@@ -214,51 +199,73 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
     precise float inverse_count = reciprocal(float(polygon.count));
     vec3 middle = vec3(0.0f, 0.0f, 0.0f);
     uint deepest = 0u;
+    float lowest = k_far_apart;
     for (uint i = 0u; i < polygon.count; i += 1u) {
-        middle = add_scaled(middle, polygon.points[i], inverse_count);
-        if (polygon.points[i].z < polygon.points[deepest].z) deepest = i;
+        vec3 corner = corner_of(polygon, i);
+        middle = add_scaled(middle, corner, inverse_count);
+        if (corner.z < lowest) {
+            lowest = corner.z;
+            deepest = i;
+        }
     }
-    precise float near = max(polygon.points[deepest].z, 0.0f) + k_near;
+    precise float near = max(lowest, 0.0f) + k_near;
     uint worths = 0u;
-    uint before = polygon.labels[polygon.count - 1u];
+    uint before = label_of(polygon, polygon.count - 1u);
     for (uint i = 0u; i < polygon.count; i += 1u) {
-        uint worth = polygon.points[i].z <= near ? k_worth_near : k_worth_far;
-        if (carried_load(carriers, feature_between(before, polygon.labels[i]))) worth = k_worth_carrying;
+        uint label = label_of(polygon, i);
+        uint worth = corner_of(polygon, i).z <= near ? k_worth_near : k_worth_far;
+        if (carried_load(carriers, feature_between(before, label))) worth = k_worth_carrying;
         worths |= worth << (2u * i);
-        before = polygon.labels[i];
+        before = label;
     }
     Pick first = no_pick(deepest);
     for (uint i = 0u; i < polygon.count; i += 1u) {
-        precise vec3 d = polygon.points[i] - middle;
+        precise vec3 d = corner_of(polygon, i) - middle;
         precise float square = d.x * d.x + d.y * d.y;
         first = better_pick(first, i, worth_of(worths, i), square);
     }
-    precise float deeper = polygon.points[first.point].z - polygon.points[deepest].z;
+    precise float deeper = corner_of(polygon, first.point).z - lowest;
     if (deeper > k_depth_tie) first.point = deepest;
-    vec3 a = polygon.points[first.point];
+    vec3 a = corner_of(polygon, first.point);
     Pick second = no_pick(first.point);
     for (uint i = 0u; i < polygon.count; i += 1u) {
-        precise vec3 d = polygon.points[i] - a;
+        precise vec3 d = corner_of(polygon, i) - a;
         precise float square = d.x * d.x + d.y * d.y;
         second = better_pick(second, i, worth_of(worths, i), square);
     }
-    vec3 b = polygon.points[second.point];
+    vec3 b = corner_of(polygon, second.point);
     Pick third = no_pick(first.point);
     for (uint i = 0u; i < polygon.count; i += 1u) {
-        float area = abs(triangle_area(a, b, polygon.points[i]));
+        float area = abs(triangle_area(a, b, corner_of(polygon, i)));
         third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), area);
     }
-    vec3 c = polygon.points[third.point];
+    vec3 c = corner_of(polygon, third.point);
     float turn = triangle_area(a, b, c) < 0.0f ? -1.0f : 1.0f;
     Pick fourth = no_pick(first.point);
     for (uint i = 0u; i < polygon.count; i += 1u) {
-        vec3 p = polygon.points[i];
+        vec3 p = corner_of(polygon, i);
         // The area beyond a side is negative in the triangle's own orientation.
         float inside = min(turn * triangle_area(a, b, p),
                            min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
         fourth = better_pick(fourth, i, min(worth_of(worths, i), k_worth_near), -inside);
     }
     return (1u << first.point) | (1u << second.point) | (1u << third.point) | (1u << fourth.point);
+}
+
+inline uint without_lowest(uint corners) { return corners & (corners - 1u); }
+
+// Point i of the contact is the lowest of `corners`, a bit each, if there is one.
+inline ContactGeometry keep_corner(ContactGeometry g, uint i, Polygon polygon, uint corners, Axes frame, float half_n)
+{
+    if (corners == 0u) return g;
+    uint lowest = uint(findLSB(corners));
+    vec3 corner = corner_of(polygon, lowest);
+    // Projected on the reference face, then moved half-way to the incident one.
+    precise vec3 local = vec3(corner.x, corner.y, half_n + 0.5f * corner.z);
+    g.points[i] = to_world(frame, local);
+    g.separations[i] = corner.z;
+    g.features[i] = feature_of(polygon, lowest);
+    return g;
 }
 
 // The reference box is A; `axis` is its face's axis. `carriers`: of this axis.
@@ -288,20 +295,21 @@ inline ContactGeometry face_contact(BoxPair p, uint axis, Carriers carriers, flo
     polygon = clip_polygon(polygon, 1u, 1.0f, half_v, 6u);
     polygon = clip_polygon(polygon, 1u, -1.0f, half_v, 7u);
 
+    uint kept = polygon.count > 4u ? reduce_points(polygon, carriers) : (1u << polygon.count) - 1u;
+    for (uint i = 0u; i < polygon.count; i += 1u) {
+        if (corner_of(polygon, i).z > max_separation) kept &= ~(1u << i);
+    }
     ContactGeometry g = no_contact();
     g.normal = frame.z;
-    uint kept = polygon.count > 4u ? reduce_points(polygon, carriers) : 0xffu;
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        float separation = polygon.points[i].z;
-        if (((kept >> i) & 1u) != 0u && separation <= max_separation && g.count < 4u) {
-            // Projected on the reference face, then moved half-way to the incident one.
-            precise vec3 local = vec3(polygon.points[i].x, polygon.points[i].y, half_n + 0.5f * separation);
-            g.points[g.count] = to_world(frame, local);
-            g.separations[g.count] = separation;
-            g.features[g.count] = feature_of(polygon, i);
-            g.count += 1u;
-        }
-    }
+    g.count = uint(bitCount(kept));
+    // Written out, so that every place in the arrays is known to the compiler.
+    g = keep_corner(g, 0u, polygon, kept, frame, half_n);
+    kept = without_lowest(kept);
+    g = keep_corner(g, 1u, polygon, kept, frame, half_n);
+    kept = without_lowest(kept);
+    g = keep_corner(g, 2u, polygon, kept, frame, half_n);
+    kept = without_lowest(kept);
+    g = keep_corner(g, 3u, polygon, kept, frame, half_n);
     return g;
 }
 

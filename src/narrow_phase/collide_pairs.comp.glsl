@@ -10,6 +10,7 @@
 #include "resolution/softness.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "narrow_phase/contact_geometry.shared.glsl"
+#include "narrow_phase/polygon.glsl"
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
@@ -32,29 +33,32 @@ layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_poi
 
 #include "narrow_phase/find_old_manifold.glsl"
 
+// All four points are loaded, whether they are there or not, so that no load waits for another.
 Carriers read_carriers(uint old_index)
 {
-    Carriers carriers = no_carriers();
-    carriers.axis = unpack(old_manifolds[old_index]).axis;
-    uint count = unpack(old_manifolds[old_index]).point_count;
-    for (uint i = 0u; i < count; ++i) {
-        uint point = 4u * old_index + i;
-        if (unpack(old_manifold_points[point]).normal_impulse > 0.0)
-            carriers.features[i] = unpack(old_manifold_points[point]).feature_id;
+    Manifold old = unpack(old_manifolds[old_index]);
+    Carriers carriers;
+    carriers.axis = old.axis;
+    for (uint i = 0u; i < 4u; ++i) {
+        ManifoldPoint point = unpack(old_manifold_points[4u * old_index + i]);
+        carriers.features[i] = i < old.point_count && point.normal_impulse > 0.0 ? point.feature_id : k_none;
     }
     return carriers;
 }
 
 OldPoints read_old_points(uint old_index)
 {
-    OldPoints old;
-    old.axis = unpack(old_manifolds[old_index]).axis;
-    old.count = unpack(old_manifolds[old_index]).point_count;
-    for (uint i = 0u; i < old.count; ++i) {
-        old.anchors[i] = unpack(old_manifold_points[4u * old_index + i]).anchor_a;
-        old.features[i] = unpack(old_manifold_points[4u * old_index + i]).feature_id;
+    Manifold old = unpack(old_manifolds[old_index]);
+    OldPoints points;
+    points.axis = old.axis;
+    points.count = old.point_count;
+    for (uint i = 0u; i < 4u; ++i) {
+        ManifoldPoint point = unpack(old_manifold_points[4u * old_index + i]);
+        points.anchors[i] = point.anchor_a;
+        points.features[i] = point.feature_id;
+        points.impulses[i] = point.normal_impulse;
     }
-    return old;
+    return points;
 }
 
 void main()
@@ -81,20 +85,20 @@ void main()
 
     // The rest of the last manifold is read here, as registers are short in the collision.
     Manifold manifold = make_manifold(pair, g, unpack(properties[pair.body_a]), unpack(properties[pair.body_b]));
-    PointMatch match = no_match();
+    vec4 impulses = vec4(0.0);
     if (old_index != k_none) {
         manifold = carry_over(manifold, unpack(old_manifolds[old_index]), parameters);
-        match = match_points(g, read_old_points(old_index));
+        impulses = carry_impulses(g, read_old_points(old_index));
     } else if (is_placed(pose_a, shape_a) && is_placed(pose_b, shape_b)) {
         manifold = begin_trial(manifold, parameters);
     }
-    if (sensed) manifold = make_sensed(manifold);
+    if (sensed) {
+        manifold = make_sensed(manifold);
+        impulses = vec4(0.0);
+    }
     manifolds[pair_index] = pack(manifold);
-    for (uint i = 0u; i < g.count; ++i) {
-        ManifoldPoint point = make_point(g, pose_a.position, offset, i);
-        uint old_point = match.old_index[i];
-        if (old_point != k_none && !sensed)
-            point.normal_impulse = unpack(old_manifold_points[4u * old_index + old_point]).normal_impulse;
-        manifold_points[4u * pair_index + i] = pack(point);
+    for (uint i = 0u; i < 4u; ++i) {
+        if (i < g.count)
+            manifold_points[4u * pair_index + i] = pack(make_point(g, pose_a.position, offset, i, impulses[i]));
     }
 }

@@ -27,6 +27,7 @@ OldPoints read_old_points(const CpuState& state, uint old_index) {
     for (uint i = 0; i < old.count; ++i) {
         old.anchors[i] = points[i].anchor_a;
         old.features[i] = points[i].feature_id;
+        old.impulses[i] = points[i].normal_impulse;
     }
     return old;
 }
@@ -48,22 +49,21 @@ void collide_pair(CpuState& state, uint pair_index) {
     if (sensed && !can_meet(state.shapes[pair.body_a], state.shapes[pair.body_b])) g.count = 0;
 
     Manifold manifold = make_manifold(pair, g, state.properties[pair.body_a], state.properties[pair.body_b]);
-    PointMatch match = no_match();
+    vec4 impulses(0.0f);
     if (old_index != k_none) {
         manifold = carry_over(manifold, state.old_manifolds[old_index], state.parameters);
-        match = match_points(g, read_old_points(state, old_index));
+        impulses = carry_impulses(g, read_old_points(state, old_index));
     } else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b])) {
         manifold = begin_trial(manifold, state.parameters);
     }
-    if (sensed) manifold = make_sensed(manifold);
-    state.manifolds[pair_index] = manifold;
-    for (uint i = 0; i < g.count; ++i) {
-        ManifoldPoint point = make_point(g, pose_a.position, offset, i);
-        const uint old_point = match.old_index[i];
-        if (old_point != k_none && !sensed)
-            point.normal_impulse = state.old_manifold_points[std::size_t{4} * old_index + old_point].normal_impulse;
-        state.manifold_points[std::size_t{4} * pair_index + i] = point;
+    if (sensed) {
+        manifold = make_sensed(manifold);
+        impulses = vec4(0.0f);
     }
+    state.manifolds[pair_index] = manifold;
+    for (uint i = 0; i < g.count; ++i)
+        state.manifold_points[std::size_t{4} * pair_index + i] =
+            make_point(g, pose_a.position, offset, i, impulses[static_cast<int>(i)]);
 }
 
 void collide_pairs_on_cpu(CpuState& state, const Launch&) {

@@ -9,14 +9,14 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
-layout(std430) readonly buffer OldManifolds { Manifold old_manifolds[]; };
+layout(std430) readonly buffer OldManifolds { ManifoldCells old_manifolds[]; };
 layout(std430) buffer PairTable { uint pair_table[]; };
 
 void main()
 {
     uint pair = item_index();
     if (pair >= counters[k_counter_old_pair_count]) return;
-    Manifold manifold = old_manifolds[pair];
+    Manifold manifold = unpack(old_manifolds[pair]);
     if (manifold.point_count == 0u) return;
     uint slot = hash_pair(manifold.body_a, manifold.body_b) & (parameters.table_size - 1u);
     while (atomicCompSwap(pair_table[slot], k_none, pair) != k_none)

@@ -89,6 +89,7 @@ struct OldPoints {
     uint count;
     vec3 anchors[4]; // from A's centre
     uint features[4];
+    float impulses[4]; // N s, along the normal
 };
 
 struct PointMatch {
@@ -110,21 +111,21 @@ inline PointMatch match_points(ContactGeometry g, OldPoints old)
     PointMatch match = no_match();
     uint taken = 0u;
     for (uint i = 0u; i < 4u; i += 1u) {
-        for (uint k = 0u; k < old.count; k += 1u) {
-            bool is_free = ((taken >> k) & 1u) == 0u && match.old_index[i] == k_none;
+        for (uint k = 0u; k < 4u; k += 1u) {
+            bool is_free = k < old.count && ((taken >> k) & 1u) == 0u && match.old_index[i] == k_none;
             if (same_axis && i < g.count && is_free && old.features[k] == g.features[i]) {
                 match.old_index[i] = k;
                 taken |= 1u << k;
             }
         }
     }
-    for (uint i = 0u; i < g.count; i += 1u) {
-        if (match.old_index[i] == k_none) {
+    for (uint i = 0u; i < 4u; i += 1u) {
+        if (i < g.count && match.old_index[i] == k_none) {
             float nearest = k_anchor_match * k_anchor_match;
-            for (uint k = 0u; k < old.count; k += 1u) {
+            for (uint k = 0u; k < 4u; k += 1u) {
                 precise vec3 apart = old.anchors[k] - g.points[i];
                 float square = dot3(apart, apart);
-                if (((taken >> k) & 1u) == 0u && square < nearest) {
+                if (k < old.count && ((taken >> k) & 1u) == 0u && square < nearest) {
                     nearest = square;
                     match.old_index[i] = k;
                 }
@@ -135,8 +136,22 @@ inline PointMatch match_points(ContactGeometry g, OldPoints old)
     return match;
 }
 
+inline float impulse_of(OldPoints old, uint i)
+{
+    if (i < 2u) return i == 0u ? old.impulses[0] : old.impulses[1];
+    return i == 2u ? old.impulses[2] : (i == 3u ? old.impulses[3] : 0.0f);
+}
+
+// What each new point starts from.
+inline vec4 carry_impulses(ContactGeometry g, OldPoints old)
+{
+    PointMatch match = match_points(g, old);
+    return vec4(impulse_of(old, match.old_index[0]), impulse_of(old, match.old_index[1]),
+                impulse_of(old, match.old_index[2]), impulse_of(old, match.old_index[3]));
+}
+
 // Point i of the new manifold; `offset` leads from A's centre to B's at the start of the step.
-inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, uint i)
+inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, uint i, float impulse)
 {
     precise vec3 anchor_b = g.points[i] - (offset + g.shift);
     precise vec3 position = centre_a + g.points[i];
@@ -146,7 +161,7 @@ inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, u
     point.anchor_b = anchor_b;
     point.feature_id = g.features[i];
     point.position = position;
-    point.normal_impulse = 0.0f;
+    point.normal_impulse = impulse;
     return point;
 }
 

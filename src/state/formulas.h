@@ -2,6 +2,7 @@
 // Every shared formula, for C++.
 #pragma once
 
+#include "narrow_phase/polygon.h"
 #include "state/buffers.h"
 
 namespace talus::engine {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Where an invocation of a kernel keeps the corners of its polygons: in shared memory, each in a column of its own. An
+// array with an index that is known only at run time is no register; the compiler would put it into memory outside the
+// chip, and NVIDIA's driver lets the fewer work groups run at a time the more of that they need (docs/performance.md).
+// The CPU's counterpart is polygon.h.
+
+const uint k_polygon_corners = 8u;
+const uint k_polygon_columns = 64u; // the invocations of a work group
+
+shared uvec4 polygon_corners[2u * k_polygon_corners * k_polygon_columns];
+
+// A corner: where it is, and the label of the edge that begins there.
+struct Polygon {
+    uint first; // of the column's rows
+    uint count; // corners, at most k_polygon_corners
+};
+
+Polygon empty_polygon() { return Polygon(0u, 0u); }
+
+// An empty one that may be filled while this one is read. There is room for two.
+Polygon polygon_beside(Polygon polygon) { return Polygon(k_polygon_corners - polygon.first, 0u); }
+
+uint corner_place(Polygon polygon, uint i)
+{
+    return (polygon.first + i) * k_polygon_columns + gl_LocalInvocationIndex;
+}
+
+vec3 corner_of(Polygon polygon, uint i) { return uintBitsToFloat(polygon_corners[corner_place(polygon, i)].xyz); }
+uint label_of(Polygon polygon, uint i) { return polygon_corners[corner_place(polygon, i)].w; }
+
+// What does not fit is left out: rounding may ask for a ninth.
+void add_corner(inout Polygon polygon, vec3 corner, uint label)
+{
+    if (polygon.count == k_polygon_corners) return;
+    polygon_corners[corner_place(polygon, polygon.count)] = uvec4(floatBitsToUint(corner), label);
+    polygon.count += 1u;
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The corners of a polygon on the CPU; polygon.glsl is the counterpart of the kernels.
+#pragma once
+
+#include "state/dialect.h"
+
+namespace talus::engine {
+
+constexpr uint k_polygon_corners = 8;
+
+/// A corner: where it is, and the label of the edge that begins there.
+struct Polygon {
+    vec3 corners[k_polygon_corners];
+    uint labels[k_polygon_corners];
+    uint count; ///< corners, at most k_polygon_corners
+};
+
+inline Polygon empty_polygon() {
+    Polygon polygon;
+    polygon.count = 0;
+    return polygon;
+}
+
+inline Polygon polygon_beside(const Polygon&) {
+    return empty_polygon();
+}
+
+inline vec3 corner_of(const Polygon& polygon, uint i) {
+    return polygon.corners[i];
+}
+
+inline uint label_of(const Polygon& polygon, uint i) {
+    return polygon.labels[i];
+}
+
+/// What does not fit is left out: rounding may ask for a ninth.
+inline void add_corner(Polygon& polygon, vec3 corner, uint label) {
+    if (polygon.count == k_polygon_corners) return;
+    polygon.corners[polygon.count] = corner;
+    polygon.labels[polygon.count] = label;
+    ++polygon.count;
+}
+
+} // namespace talus::engine
