@@ -9,6 +9,9 @@
 //   const uint k_room, the bodies that there is room for
 //   uint slot_of(uint body), the body's place there; k_room if it is one that nothing moves
 //   const uint k_own_bodies, the most that an invocation has, and uint own_body(uint i), k_none for no body
+//   BodyDelta load_delta(uint slot), void store_delta(uint slot, BodyDelta delta); the same for BodyWarmStart
+//   void clear_motion(uint slot), no delta; void begin_motion(uint body, uint slot), its first warm start; void
+//   end_motion(uint body, uint slot), what is left of both; uint body_at(uint slot), since begin_motion
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen.
 
@@ -19,6 +22,7 @@ layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 shared vec4 linear_and_inverse_mass[k_room + 1u];
 shared float angular[3u * (k_room + 1u)];
 shared uint most_substeps;
+shared uint search_bounds[2];
 // Where the group's manifolds of each colour begin; the overflow set last.
 shared uint colour_offsets[k_max_colours + 2u];
 
@@ -40,36 +44,66 @@ void store_velocity(uint slot, BodyVelocity velocity)
     angular[3u * slot + 2u] = velocity.angular.z;
 }
 
+// As of a body that nothing moves.
+void clear_slot(uint slot)
+{
+    store_velocity(slot, frozen_velocity());
+    clear_motion(slot);
+}
+
+// Of an invocation's body i.
+uint own_slot(uint i) { return gl_LocalInvocationID.x + i * gl_WorkGroupSize.x; }
+
 const bool k_hubs = false; // their islands are solved with a launch for each colour
 void put_change(uint index, HubChange change) {}
 
 #include "resolution/contact_passes.glsl"
 #include "resolution/body_passes.glsl"
 
-// How many of the manifolds from `lower` on, up to `upper`, have a lower key; and `lower` on top.
-uint count_below(uint key, uint lower, uint upper)
+// Where the group's manifolds begin and end. `group`: the number in their keys. Half of the invocations look for each:
+// they ask at places that are evenly apart, and then between two of these. A search by halves would have four or five
+// times as many loads that wait for each other.
+void find_manifolds(uint group)
 {
-    while (lower < upper) {
-        uint middle = (lower + upper) / 2u;
-        if (manifold_keys[middle] < key)
-            lower = middle + 1u;
-        else
-            upper = middle;
+    uint probes = gl_WorkGroupSize.x / 2u;
+    uint side = gl_LocalInvocationID.x / probes; // 0 the beginning, 1 the end
+    uint probe = gl_LocalInvocationID.x % probes;
+    uint key = manifold_key(group + side, 0u);
+    uint manifold_count = counters[k_counter_manifold_count];
+    uint lower = 0u; // keys before it are lower
+    for (uint span = manifold_count; span > 0u;) { // the key beyond `span` more is not
+        uint stride = (span + probes - 1u) / probes;
+        if (probe == 0u) search_bounds[side] = lower;
+        barrier();
+        uint begin = lower + probe * stride;
+        uint end = min(min(begin + stride, lower + span), manifold_count);
+        if (begin < end && manifold_keys[end - 1u] < key) atomicMax(search_bounds[side], end);
+        barrier();
+        lower = search_bounds[side];
+        span = stride - 1u;
+        barrier();
     }
-    return lower;
+    if (probe == 0u) search_bounds[side] = lower;
+    barrier();
 }
 
-// `group`: the number in the manifolds' keys.
 void find_colours(uint group)
 {
+    find_manifolds(group);
+    uint first = search_bounds[0];
+    uint end = search_bounds[1];
     uint me = gl_LocalInvocationID.x;
-    if (me < 2u) colour_offsets[me] = count_below(manifold_key(group + me, 0u), 0u, counters[k_counter_manifold_count]);
-    barrier();
-    uint first = colour_offsets[0];
-    uint end = colour_offsets[1];
-    barrier();
     for (uint colour = me; colour < k_max_colours + 2u; colour += gl_WorkGroupSize.x)
-        colour_offsets[colour] = count_below(manifold_key(group, colour), first, end);
+        colour_offsets[colour] = colour == 0u ? first : end;
+    barrier();
+    // A manifold whose key is another one than that before it begins its colour, and those in between.
+    for (uint index = first + me; index < end; index += gl_WorkGroupSize.x) {
+        uint mask = (1u << k_colour_bits) - 1u;
+        uint colour = manifold_keys[index] & mask;
+        uint before = index > first ? manifold_keys[index - 1u] & mask : 0u;
+        for (uint each = before + 1u; each <= min(colour, k_max_colours + 1u); ++each)
+            colour_offsets[each] = index;
+    }
 }
 
 // This invocation's manifolds: every gl_WorkGroupSize.x-th of the group's, without the overflow set.
@@ -89,7 +123,7 @@ void take(uint index)
 void pass_over_contacts(uint pass, uint substep)
 {
     PassTarget target;
-    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass);
+    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass, load_deltas());
     uint colour_end = colour_offsets[0];
     for (uint colour = 0u; colour < k_max_colours && colour_end < colour_offsets[k_overflow_colour]; ++colour) {
         uint colour_begin = colour_end;
@@ -97,10 +131,10 @@ void pass_over_contacts(uint pass, uint substep)
         if (colour_begin == colour_end) continue;
         while (in_hand >= colour_begin && in_hand < colour_end) {
             uint done = in_hand;
-            if (substep < substeps) pass_over_constraint(pass, in_hand, target);
+            if (substep < substeps) pass_over_constraint(pass, in_hand, target, load_velocities());
             take(in_hand + gl_WorkGroupSize.x);
             if (in_hand <= done) break; // that was the last one: the next pass begins with the first
-            if (pass != k_warm_start) target = target_of_pass(pass);
+            if (pass != k_warm_start) target = target_of_pass(pass, load_deltas());
         }
         barrier();
     }
@@ -112,8 +146,8 @@ void pass_over_contacts(uint pass, uint substep)
         in_hand = k_none;
         for (uint index = colour_offsets[k_overflow_colour]; index < overflow_end; ++index) {
             take_constraint(index);
-            if (pass != k_warm_start) target = target_of_pass(pass);
-            if (substep < substeps) pass_over_constraint(pass, index, target);
+            if (pass != k_warm_start) target = target_of_pass(pass, load_deltas());
+            if (substep < substeps) pass_over_constraint(pass, index, target, load_velocities());
             put_back_impulses(index);
         }
         take(first_index);
@@ -124,17 +158,17 @@ void pass_over_contacts(uint pass, uint substep)
 void solve_group(uint group)
 {
     uint me = gl_LocalInvocationID.x;
-    if (me == 0u) {
-        most_substeps = 0u;
-        store_velocity(k_room, frozen_velocity());
-    }
+    if (me == 0u) most_substeps = 0u;
+    for (uint slot = me; slot <= k_room; slot += gl_WorkGroupSize.x)
+        clear_slot(slot);
     barrier();
     uint own_bodies = 0u; // a bit for each
     for (uint i = 0u; i < k_own_bodies; ++i) {
         uint body = own_body(i);
         if (body == k_none) continue;
         own_bodies |= 1u << i;
-        store_velocity(slot_of(body), unpack(velocities[body]));
+        store_velocity(own_slot(i), unpack(velocities[body]));
+        begin_motion(body, own_slot(i));
         atomicMax(most_substeps, unpack(inertias[body]).substeps);
     }
     find_colours(group);
@@ -147,7 +181,7 @@ void solve_group(uint group)
 
     for (uint substep = 0u; substep <= last; ++substep) {
         for (uint i = 0u; own_bodies >> i != 0u; ++i) {
-            if (((own_bodies >> i) & 1u) == 1u) integrate_body(own_body(i), substep);
+            if (((own_bodies >> i) & 1u) == 1u) integrate_body(body_at(own_slot(i)), own_slot(i), substep);
         }
         groupMemoryBarrier();
         barrier();
@@ -160,7 +194,9 @@ void solve_group(uint group)
 
     if (in_hand != k_none) put_back_impulses(in_hand);
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
-        uint body = own_body(i);
-        if (((own_bodies >> i) & 1u) == 1u) velocities[body] = pack(load_velocity(slot_of(body)));
+        if (((own_bodies >> i) & 1u) == 0u) continue;
+        uint body = body_at(own_slot(i));
+        velocities[body] = pack(load_velocity(own_slot(i)));
+        end_motion(body, own_slot(i));
     }
 }
