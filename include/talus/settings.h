@@ -76,6 +76,9 @@ struct WorldOptions {
     GlContext gl_context = GlContext::Own;
     std::uint32_t threads = 0; ///< of the CPU device; 0: as many as the machine has
     bool profile = false;      ///< measure every stage (see StepReport::stage_ms); costs a little time
+    /// Keep the kernels' compiled programs in the user's cache folder ($XDG_CACHE_HOME or ~/.cache, talus/), so that
+    /// later worlds start at once. The environment variable TALUS_PROGRAM_CACHE=0 turns it off too.
+    bool program_cache = true;
     Capacities capacities;
 };
 

@@ -103,6 +103,8 @@ public:
     virtual void swap(BufferId, BufferId) = 0;
     virtual void set_parameters(const Parameters&) = 0;
 
+    /// Makes kernels that will be launched soon ready, side by side where the device can. Waits for none of them.
+    virtual void prepare(std::span<const Kernel* const>) {}
     virtual void run(const Launch&) = 0;
 
     /// Marks the start of a stage for profilers and debuggers; the one before it ends.
@@ -127,7 +129,7 @@ public:
 
 /// Both throw talus::Error.
 std::unique_ptr<Device> make_cpu_device(std::uint32_t threads, bool profile);
-std::unique_ptr<Device> make_gl_device(GlContext, bool profile);
+std::unique_ptr<Device> make_gl_device(GlContext, bool profile, bool program_cache = true);
 
 /// The GPUs that there are: first the one that make_gl_device(GlContext::Own) would take, last those that cannot be
 /// used, with an empty name and the reason in `why`.
