@@ -43,6 +43,14 @@ struct MemoryUse {
     std::uint64_t host = 0;
 };
 
+/// What has gone between host and device for the bodies' records, in all so far. Adding, removing and changing bodies
+/// costs bytes for what changes; reading a pose or a velocity after a step reads those of all bodies.
+struct Transfers {
+    std::uint64_t to_device = 0; ///< bytes
+    std::uint64_t to_host = 0;   ///< bytes; without the poses that keep_poses_coming() asks for
+    std::uint64_t waits = 0;     ///< calls that had to wait for steps on their way
+};
+
 /// OpenGL names of the buffers to draw from, without a copy. Valid until the next call that changes the world.
 /// Poses: 32 bytes a body: vec3 position, uint flags, vec4 rotation (x, y, z, w).
 /// Shapes: 16 bytes a body: vec3 half extents, uint word with the shape in bits 0–7 (0 box, 1 sphere) and the body's
@@ -64,8 +72,9 @@ struct GlBuffers {
 /// A world of bodies. Calls may come from several threads, one at a time: whoever lets two of them overlap has to lock.
 /// (A world in the caller's own OpenGL context stays with the thread that has the context.)
 ///
-/// `step` on a GPU returns before the GPU has finished; several steps may be on their way. Calls that read results, and
-/// calls that change the world, wait for them first.
+/// `step` on a GPU returns before the GPU has finished; several steps may be on their way. Adding and removing bodies
+/// and changing a material, a gravity scale or a force waits for none of them. Calls that read results wait first, and
+/// so do those that change a pose or a velocity, which start from what it is.
 class World {
 public:
     /// Throws Error where the device cannot be had; the message lists what was tried.
@@ -146,6 +155,7 @@ public:
     void set_settings(const Settings&);
     const DeviceInfo& device() const noexcept;
     MemoryUse memory() const noexcept;
+    Transfers transfers() const noexcept;
     /// Throws Error on the CPU device, which has none.
     GlBuffers gl_buffers() const;
     /// Makes the world's own OpenGL context current on this thread (GPU and hybrid), for drawing from its buffers. It
