@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of solve_contacts.comp.glsl.
 #include "resolution/solve_contacts.h"
-#include "resolution/contact_passes.h"
+
+#include <array>
+#include <numeric>
+
+#include "resolution/contact_batch.h"
 #include "resolution/resolution.h"
 
 namespace talus::engine {
@@ -11,9 +15,19 @@ void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
     const auto pass = static_cast<ContactPass>(launch.args[1]);
     const uint first = state.colour_offsets[colour];
     const uint count = state.colour_offsets[colour + 1] - first;
-    const uint grain = colour == k_overflow_colour ? UINT32_MAX : 64; // the overflow set one after the other
-    state.parallel(
-        count, [&](uint i) { pass_over_constraint(state, pass, substep, first + i); }, grain);
+    if (colour == k_overflow_colour) { // one after the other
+        for (uint i = 0; i < count; ++i)
+            pass_over_constraint(state, pass, substep, first + i);
+        return;
+    }
+    const uint lanes = contact_batch().lanes;
+    const auto pass_over_part = [&](uint part) {
+        std::array<uint, k_most_lanes> indices;
+        const uint begin = part * lanes, size = min(lanes, count - begin);
+        std::iota(indices.begin(), indices.begin() + size, first + begin);
+        pass_over_colour(state, pass, substep, indices.data(), size);
+    };
+    state.parallel((count + lanes - 1) / lanes, pass_over_part, 64 / lanes);
 }
 
 const Kernel solve_contacts{"resolution/solve_contacts", solve_contacts_on_cpu};

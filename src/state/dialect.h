@@ -15,6 +15,12 @@
 // the compiler option -ffp-contract=off says it for all.
 #define precise
 
+// Formulas that run on several items side by side (device/cpu/lanes.h) choose by these instead of by ?: and if. For one
+// item they are the same.
+#define choose(condition, yes, no) ((condition) ? (yes) : (no))
+#define all_lanes(condition) (condition)
+#define any_lane(condition) (condition)
+
 namespace talus::engine {
 
 using uint = std::uint32_t;

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// ContactBatch::pass for one set of instructions. Included once by each contact_batch_*.cpp.
+#pragma once
+
+#include "device/cpu/lane_formulas.h"
+#include "resolution/contact_batch.h"
+
+namespace talus::engine::TALUS_LANES_NAME {
+
+/// As target_of_pass in contact_passes.h.
+TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ContactConstraint& c, const ManifoldRows& rows,
+                                     const ManifoldImpulses& impulses, const BodyDelta& delta_a,
+                                     const BodyDelta& delta_b, const Parameters& p) {
+    const bool relax = pass == ContactPass::Relax;
+    const Mask against_static = is_against_static(c.traits);
+    const Substep substep = make_substep(c.substeps, against_static, p);
+    PassTarget target;
+    target.friction = make_friction_target(rows, impulses.normal);
+    target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
+    target.moved_since = relax;
+    target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
+    target.half_h = choose(against_static && !Mask(relax), 0.5f * substep_length(c.substeps, p), 0.0f);
+    target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
+                                       impulses.normal, !relax, substep, p);
+    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep.soft);
+    return target;
+}
+
+struct Places {
+    std::uint32_t constraint[k_lanes], body_a[k_lanes], body_b[k_lanes];
+};
+
+TALUS_LANE void put_velocities(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
+                               const BodyVelocity& v) {
+    const std::uint32_t pushed = lanes & bits_of(v.inverse_mass != 0.0f);
+    scatter_cell(state.velocities.data, bodies, 0, pushed, v.linear.x, v.linear.y, v.linear.z, v.inverse_mass);
+    scatter_cell(state.velocities.data, bodies, 1, pushed, v.angular.x, v.angular.y, v.angular.z, v.reserved);
+}
+
+/// As pass_over_constraint in contact_passes.h.
+inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t substep,
+                                     const std::uint32_t* indices, std::uint32_t count) {
+    Places places;
+    std::uint32_t active = 0, left_alone = 0;
+    for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
+        const std::uint32_t index = indices[lane < count ? lane : 0];
+        const engine::ContactConstraint& c = state.constraints.data[index];
+        places.constraint[lane] = index;
+        places.body_a[lane] = c.body_a;
+        places.body_b[lane] = c.body_b;
+        if (lane >= count || substep >= c.substeps) continue;
+        const bool hub = (c.traits & (k_trait_hub | k_trait_hub << engine::k_traits_of_b)) != 0;
+        (hub ? left_alone : active) |= 1u << lane;
+    }
+    if (active == 0) return left_alone;
+
+    const auto c = gather<ContactConstraint>(state.constraints.data, places.constraint);
+    const ManifoldRows rows = make_rows(c, gather<BodyInertia>(state.inertias.data, places.body_a),
+                                        gather<BodyInertia>(state.inertias.data, places.body_b));
+    ManifoldState s;
+    s.velocities.a = gather<BodyVelocity>(state.velocities.data, places.body_a);
+    s.velocities.b = gather<BodyVelocity>(state.velocities.data, places.body_b);
+    s.impulses = make_impulses(c);
+    if (pass == ContactPass::WarmStart) {
+        s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
+    } else {
+        const PassTarget target =
+            target_of_pass(pass, c, rows, s.impulses, gather<BodyDelta>(state.deltas.data, places.body_a),
+                           gather<BodyDelta>(state.deltas.data, places.body_b), state.parameters);
+        s = solve_manifold(s, rows, target);
+        const std::uint32_t unusual = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
+        active &= ~unusual;
+        left_alone |= unusual;
+        constexpr std::size_t k_cell = offsetof(engine::ContactConstraint, friction_impulse) / sizeof(Cell);
+        const ManifoldImpulses& is = s.impulses;
+        const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
+            scatter_cell(state.constraints.data, places.constraint, k_cell + cell, active, x, y, z, w);
+        };
+        put(0, is.friction.x, is.friction.y, is.friction.z, c.reserved_1);
+        put(1, is.moment.x, is.moment.y, is.moment.z, c.reserved_2);
+        put(2, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
+        put(3, is.total.x, is.total.y, is.total.z, is.total.w);
+    }
+    put_velocities(state, places.body_a, active, s.velocities.a);
+    put_velocities(state, places.body_b, active, s.velocities.b);
+    return left_alone;
+}
+
+} // namespace talus::engine::TALUS_LANES_NAME
