@@ -26,16 +26,81 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ContactConstraint& 
     return target;
 }
 
-struct Places {
-    std::uint32_t constraint[k_lanes], body_a[k_lanes], body_b[k_lanes];
-};
+// ---- records of lanes, cell by cell as records.shared.glsl has them ----
+
+TALUS_LANE BodyVelocity velocities_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto linear = gather(state.velocities.data, bodies, 0), angular = gather(state.velocities.data, bodies, 1);
+    return {three_of(linear), linear.w, three_of(angular), angular.w};
+}
 
 TALUS_LANE void put_velocities(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
                                const BodyVelocity& v) {
     const std::uint32_t pushed = lanes & bits_of(v.inverse_mass != 0.0f);
-    scatter_cell(state.velocities.data, bodies, 0, pushed, v.linear.x, v.linear.y, v.linear.z, v.inverse_mass);
-    scatter_cell(state.velocities.data, bodies, 1, pushed, v.angular.x, v.angular.y, v.angular.z, v.reserved);
+    scatter(state.velocities.data, bodies, 0, pushed, {v.linear.x, v.linear.y, v.linear.z, v.inverse_mass});
+    scatter(state.velocities.data, bodies, 1, pushed, {v.angular.x, v.angular.y, v.angular.z, v.reserved});
 }
+
+TALUS_LANE BodyDelta deltas_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto position = gather(state.deltas.data, bodies, 0);
+    return {three_of(position), position.w, all_of(gather(state.deltas.data, bodies, 1))};
+}
+
+TALUS_LANE BodyInertia inertias_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto first = gather(state.inertias.data, bodies, 0), second = gather(state.inertias.data, bodies, 1);
+    return {
+        first.x, first.y, first.z, first.w, second.x, second.y, floatBitsToUint(second.z), floatBitsToUint(second.w)};
+}
+
+TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::uint32_t* places) {
+    const auto cell = [&](std::size_t i) __attribute__((always_inline)) {
+        return gather(state.constraints.data, places, i);
+    };
+    const auto head = cell(0), normal = cell(1), centre_a = cell(2), centre_b = cell(3), gap = cell(4), mass = cell(5),
+               friction = cell(11), moment = cell(12);
+    return {floatBitsToUint(head.x),
+            floatBitsToUint(head.y),
+            floatBitsToUint(head.z),
+            floatBitsToUint(head.w),
+            three_of(normal),
+            normal.w,
+            three_of(centre_a),
+            centre_a.w,
+            three_of(centre_b),
+            centre_b.w,
+            three_of(gap),
+            floatBitsToUint(gap.w),
+            three_of(mass),
+            floatBitsToUint(mass.w),
+            all_of(cell(6)),
+            all_of(cell(7)),
+            all_of(cell(8)),
+            all_of(cell(9)),
+            all_of(cell(10)),
+            three_of(friction),
+            friction.w,
+            three_of(moment),
+            moment.w,
+            all_of(cell(13)),
+            all_of(cell(14)),
+            all_of(cell(15))};
+}
+static_assert(offsetof(engine::ContactConstraint, friction_impulse) == 11 * sizeof(Cell) &&
+              sizeof(engine::ContactConstraint) == 16 * sizeof(Cell));
+
+TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
+                             const ManifoldImpulses& is, const ContactConstraint& was) {
+    const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
+        scatter(state.constraints.data, places, cell, lanes, {x, y, z, w});
+    };
+    put(11, is.friction.x, is.friction.y, is.friction.z, was.reserved_1);
+    put(12, is.moment.x, is.moment.y, is.moment.z, was.reserved_2);
+    put(13, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
+    put(14, is.total.x, is.total.y, is.total.z, is.total.w);
+}
+
+struct Places {
+    std::uint32_t constraint[k_lanes], body_a[k_lanes], body_b[k_lanes];
+};
 
 /// As pass_over_constraint in contact_passes.h.
 inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t substep,
@@ -54,32 +119,20 @@ inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, st
     }
     if (active == 0) return left_alone;
 
-    const auto c = gather<ContactConstraint>(state.constraints.data, places.constraint);
-    const ManifoldRows rows = make_rows(c, gather<BodyInertia>(state.inertias.data, places.body_a),
-                                        gather<BodyInertia>(state.inertias.data, places.body_b));
-    ManifoldState s;
-    s.velocities.a = gather<BodyVelocity>(state.velocities.data, places.body_a);
-    s.velocities.b = gather<BodyVelocity>(state.velocities.data, places.body_b);
-    s.impulses = make_impulses(c);
+    const ContactConstraint c = constraints_at(state, places.constraint);
+    const ManifoldRows rows = make_rows(c, inertias_at(state, places.body_a), inertias_at(state, places.body_b));
+    ManifoldState s{
+        {velocities_at(state, places.body_a), velocities_at(state, places.body_b)}, make_impulses(c), false};
     if (pass == ContactPass::WarmStart) {
         s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
     } else {
-        const PassTarget target =
-            target_of_pass(pass, c, rows, s.impulses, gather<BodyDelta>(state.deltas.data, places.body_a),
-                           gather<BodyDelta>(state.deltas.data, places.body_b), state.parameters);
+        const PassTarget target = target_of_pass(pass, c, rows, s.impulses, deltas_at(state, places.body_a),
+                                                 deltas_at(state, places.body_b), state.parameters);
         s = solve_manifold(s, rows, target);
         const std::uint32_t unusual = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
         active &= ~unusual;
         left_alone |= unusual;
-        constexpr std::size_t k_cell = offsetof(engine::ContactConstraint, friction_impulse) / sizeof(Cell);
-        const ManifoldImpulses& is = s.impulses;
-        const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
-            scatter_cell(state.constraints.data, places.constraint, k_cell + cell, active, x, y, z, w);
-        };
-        put(0, is.friction.x, is.friction.y, is.friction.z, c.reserved_1);
-        put(1, is.moment.x, is.moment.y, is.moment.z, c.reserved_2);
-        put(2, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
-        put(3, is.total.x, is.total.y, is.total.z, is.total.w);
+        put_impulses(state, places.constraint, active, s.impulses, c);
     }
     put_velocities(state, places.body_a, active, s.velocities.a);
     put_velocities(state, places.body_b, active, s.velocities.b);

@@ -23,11 +23,10 @@ typedef std::int32_t MaskVector __attribute__((vector_size(4 * TALUS_LANES), may
 
 #if TALUS_LANES == 4
 #define TALUS_EACH_LANE(x) x, x, x, x
-#elif TALUS_LANES == 8
+#else
 #define TALUS_EACH_LANE(x) x, x, x, x, x, x, x, x
-#elif TALUS_LANES == 16
-#define TALUS_EACH_LANE(x) x, x, x, x, x, x, x, x, x, x, x, x, x, x, x, x
 #endif
+static_assert(TALUS_LANES == 4 || TALUS_LANES == 8);
 
 /// A bool a lane. A formula that would branch on it alone does not link.
 struct Mask {
@@ -120,12 +119,9 @@ TALUS_LANE std::uint32_t bits_of(Mask m) {
 #elif TALUS_LANES == 4
     typedef float Bytes __attribute__((vector_size(16)));
     return static_cast<std::uint32_t>(__builtin_ia32_movmskps(Bytes(m.v)));
-#elif TALUS_LANES == 8
+#else
     typedef float Bytes __attribute__((vector_size(32)));
     return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(Bytes(m.v)));
-#else
-    typedef int Words __attribute__((vector_size(64)));
-    return static_cast<std::uint32_t>(__builtin_ia32_cvtd2mask512(Words(m.v)));
 #endif
 }
 
@@ -225,66 +221,81 @@ TALUS_LANE vec4 choose(Mask m, vec4 yes, vec4 no) {
 
 typedef float Cell __attribute__((vector_size(16), may_alias, aligned(4))); // four words of one item
 
-/// Word i of four cells becomes the vector i: and the other way round.
+/// Four of a thing, named one by one and nowhere seen by its address, so that the compiler keeps all in registers.
 struct FourCells {
-    Cell c[4];
+    Cell x, y, z, w;
 };
-TALUS_LANE FourCells transposed(Cell a, Cell b, Cell c, Cell d) {
-    const Cell ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-    const Cell ab2 = __builtin_shufflevector(a, b, 2, 6, 3, 7), cd2 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-    return {{__builtin_shufflevector(ab, cd, 0, 1, 4, 5), __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
-             __builtin_shufflevector(ab2, cd2, 0, 1, 4, 5), __builtin_shufflevector(ab2, cd2, 2, 3, 6, 7)}};
+struct FourLanes {
+    Lanes x, y, z, w;
+};
+
+/// Rows become columns.
+TALUS_LANE FourCells transposed(FourCells c) {
+    const Cell low = __builtin_shufflevector(c.x, c.y, 0, 4, 1, 5),
+               low_2 = __builtin_shufflevector(c.z, c.w, 0, 4, 1, 5);
+    const Cell high = __builtin_shufflevector(c.x, c.y, 2, 6, 3, 7),
+               high_2 = __builtin_shufflevector(c.z, c.w, 2, 6, 3, 7);
+    return {__builtin_shufflevector(low, low_2, 0, 1, 4, 5), __builtin_shufflevector(low, low_2, 2, 3, 6, 7),
+            __builtin_shufflevector(high, high_2, 0, 1, 4, 5), __builtin_shufflevector(high, high_2, 2, 3, 6, 7)};
 }
 
-TALUS_LANE FloatVector joined(const Cell* parts) {
+/// The cell at this place in four records.
+template <typename Record>
+TALUS_LANE FourCells cells_at(const Record* items, const std::uint32_t* places, std::size_t cell) {
+    const auto at = [&](std::size_t lane) __attribute__((always_inline)) {
+        return reinterpret_cast<const Cell*>(&items[places[lane]])[cell];
+    };
+    return {at(0), at(1), at(2), at(3)};
+}
+
+template <typename Record> TALUS_LANE void put_cells(Record* items, const std::uint32_t* places, std::size_t cell,
+                                                     std::uint32_t lanes, FourCells c) {
+    if ((lanes & 1u) != 0) reinterpret_cast<Cell*>(&items[places[0]])[cell] = c.x;
+    if ((lanes & 2u) != 0) reinterpret_cast<Cell*>(&items[places[1]])[cell] = c.y;
+    if ((lanes & 4u) != 0) reinterpret_cast<Cell*>(&items[places[2]])[cell] = c.z;
+    if ((lanes & 8u) != 0) reinterpret_cast<Cell*>(&items[places[3]])[cell] = c.w;
+}
+
+/// The four words of the cell `cell` of the item `places[lane]` in each lane.
+template <typename Record>
+TALUS_LANE FourLanes gather(const Record* items, const std::uint32_t* places, std::size_t cell) {
+    const FourCells low = transposed(cells_at(items, places, cell));
 #if TALUS_LANES == 4
-    return FloatVector(parts[0]);
+    return {Lanes(FloatVector(low.x)), Lanes(FloatVector(low.y)), Lanes(FloatVector(low.z)), Lanes(FloatVector(low.w))};
 #else
-#define TALUS_8 0, 1, 2, 3, 4, 5, 6, 7
-    const auto low = __builtin_shufflevector(parts[0], parts[1], TALUS_8);
-#if TALUS_LANES == 8
-    return FloatVector(low);
-#else
-    const auto high = __builtin_shufflevector(parts[2], parts[3], TALUS_8);
-    return FloatVector(__builtin_shufflevector(low, high, TALUS_8, 8, 9, 10, 11, 12, 13, 14, 15));
-#endif
-#undef TALUS_8
+    const FourCells high = transposed(cells_at(items, places + 4, cell));
+    const auto join = [](Cell a, Cell b) __attribute__((always_inline)) {
+        return Lanes(FloatVector(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7)));
+    };
+    return {join(low.x, high.x), join(low.y, high.y), join(low.z, high.z), join(low.w, high.w)};
 #endif
 }
 
-/// The lanes of a record: item `places[lane]` of `items` in each. `Wide` is the record of lanes, `Record` that of one
-/// item; both are rows of cells with the same members.
-template <typename Wide, typename Record> TALUS_LANE Wide gather(const Record* items, const std::uint32_t* places) {
-    static_assert(sizeof(Record) % sizeof(Cell) == 0 && sizeof(Wide) == sizeof(Record) * k_lanes);
-    Wide wide;
-    auto* vectors = reinterpret_cast<FloatVector*>(&wide);
-    for (std::size_t cell = 0; cell < sizeof(Record) / sizeof(Cell); ++cell) {
-        Cell words[4][k_lanes / 4];
-        for (int part = 0; part < k_lanes / 4; ++part) {
-            const auto at = [&](int lane) __attribute__((always_inline)) {
-                return reinterpret_cast<const Cell*>(&items[places[4 * part + lane]])[cell];
-            };
-            const FourCells four = transposed(at(0), at(1), at(2), at(3));
-            for (int word = 0; word < 4; ++word)
-                words[word][part] = four.c[word];
-        }
-        for (int word = 0; word < 4; ++word)
-            vectors[4 * cell + static_cast<std::size_t>(word)] = joined(words[word]);
-    }
-    return wide;
+/// Writes them, to the items whose lane has its bit set.
+template <typename Record> TALUS_LANE void scatter(Record* items, const std::uint32_t* places, std::size_t cell,
+                                                   std::uint32_t lanes, FourLanes words) {
+#if TALUS_LANES == 4
+    put_cells(items, places, cell, lanes,
+              transposed({Cell(words.x.v), Cell(words.y.v), Cell(words.z.v), Cell(words.w.v)}));
+#else
+    const auto low = [](Lanes a) __attribute__((always_inline)) {
+        return Cell(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3));
+    };
+    const auto high = [](Lanes a) __attribute__((always_inline)) {
+        return Cell(__builtin_shufflevector(a.v, a.v, 4, 5, 6, 7));
+    };
+    put_cells(items, places, cell, lanes, transposed({low(words.x), low(words.y), low(words.z), low(words.w)}));
+    put_cells(items, places + 4, cell, lanes >> 4,
+              transposed({high(words.x), high(words.y), high(words.z), high(words.w)}));
+#endif
 }
 
-/// Writes four vectors as the cell `cell` of each item whose lane has its bit set.
-template <typename Record> TALUS_LANE void scatter_cell(Record* items, const std::uint32_t* places, std::size_t cell,
-                                                        std::uint32_t lanes, Lanes x, Lanes y, Lanes z, Lanes w) {
-    const Cell* words[4] = {reinterpret_cast<const Cell*>(&x.v), reinterpret_cast<const Cell*>(&y.v),
-                            reinterpret_cast<const Cell*>(&z.v), reinterpret_cast<const Cell*>(&w.v)};
-    for (int part = 0; part < k_lanes / 4; ++part) {
-        const FourCells four = transposed(words[0][part], words[1][part], words[2][part], words[3][part]);
-        for (int lane = 0; lane < 4; ++lane)
-            if ((lanes >> (4 * part + lane) & 1u) != 0)
-                reinterpret_cast<Cell*>(&items[places[4 * part + lane]])[cell] = four.c[lane];
-    }
+/// The first three of four words.
+TALUS_LANE vec3 three_of(FourLanes words) {
+    return {words.x, words.y, words.z};
+}
+TALUS_LANE vec4 all_of(FourLanes words) {
+    return {words.x, words.y, words.z, words.w};
 }
 
 } // namespace talus::engine::TALUS_LANES_NAME
