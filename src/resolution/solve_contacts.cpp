@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of solve_contacts.comp.glsl.
 #include "resolution/solve_contacts.h"
-
-#include <array>
-#include <numeric>
-
-#include "resolution/contact_batch.h"
+#include "resolution/lane_passes.h"
 #include "resolution/resolution.h"
 
 namespace talus::engine {
@@ -20,14 +16,8 @@ void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
             pass_over_constraint(state, pass, substep, first + i);
         return;
     }
-    const uint lanes = contact_batch().lanes;
-    const auto pass_over_part = [&](uint part) {
-        std::array<uint, k_most_lanes> indices;
-        const uint begin = part * lanes, size = min(lanes, count - begin);
-        std::iota(indices.begin(), indices.begin() + size, first + begin);
-        pass_over_colour(state, pass, substep, indices.data(), size);
-    };
-    state.parallel((count + lanes - 1) / lanes, pass_over_part, 64 / lanes);
+    for_each_part(state, first, count,
+                  [&](const uint* indices, uint size) { pass_over_colour(state, pass, substep, indices, size); });
 }
 
 const Kernel solve_contacts{"resolution/solve_contacts", solve_contacts_on_cpu};

@@ -3,8 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "resolution/body_passes.h"
-#include "resolution/contact_batch.h"
+#include "resolution/lane_passes.h"
 #include "resolution/resolution.h"
 #include "resolution/solve_islands.h"
 
@@ -56,8 +55,7 @@ void solve_together(CpuState& state, const IslandWork& islands) {
     for (const uint body : islands.bodies)
         last = max(last, state.inertias[body].substeps);
     for (uint substep = 0; substep <= last; ++substep) {
-        for (const uint body : islands.bodies)
-            integrate_body(state, body, substep);
+        pass_over_bodies(state, substep, islands.bodies.data(), static_cast<uint>(islands.bodies.size()));
         if (substep == last) break;
         if (substep == 0) over_contacts(ContactPass::WarmStart);
         for (uint i = 0; i < p.iterations; ++i)

@@ -62,7 +62,8 @@ struct Lanes {
     TALUS_LANE Lanes operator-() const { return Lanes(-v); }
 };
 
-TALUS_LANE ULanes::ULanes(Lanes x) : v(__builtin_convertvector(x.v, UintVector)) {}
+/// Of numbers below 2^31; what is none gives 0.
+TALUS_LANE ULanes::ULanes(Lanes x) : v(UintVector(__builtin_convertvector(x.v == x.v ? x.v : x.v - x.v, MaskVector))) {}
 
 #define TALUS_OPERATOR(type, op)                                                                                       \
     TALUS_LANE type operator op(type a, type b) {                                                                      \
@@ -125,6 +126,15 @@ TALUS_LANE std::uint32_t bits_of(Mask m) {
 #endif
 }
 
+TALUS_LANE Mask mask_of(std::uint32_t bits) {
+#if TALUS_LANES == 4
+    constexpr UintVector k_bits{1, 2, 4, 8};
+#else
+    constexpr UintVector k_bits{1, 2, 4, 8, 16, 32, 64, 128};
+#endif
+    return Mask(MaskVector((bits & k_bits) != 0));
+}
+
 TALUS_LANE bool all_lanes(Mask m) {
     return bits_of(m) == k_lane_mask;
 }
@@ -140,6 +150,9 @@ TALUS_LANE ULanes choose(Mask m, ULanes yes, ULanes no) {
 }
 TALUS_LANE Lanes choose(Mask m, float yes, float no) {
     return choose(m, Lanes(yes), Lanes(no));
+}
+TALUS_LANE ULanes choose(Mask m, ULanes yes, std::uint32_t no) {
+    return choose(m, yes, ULanes(no));
 }
 
 TALUS_LANE ULanes floatBitsToUint(Lanes x) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// ContactBatch::pass for one set of instructions. Included once by each contact_batch_*.cpp.
+// LanePasses for one set of instructions. Included once by each lane_passes_*.cpp.
 #pragma once
 
 #include "device/cpu/lane_formulas.h"
-#include "resolution/contact_batch.h"
+#include "resolution/lane_passes.h"
 
 namespace talus::engine::TALUS_LANES_NAME {
 
@@ -38,6 +38,40 @@ TALUS_LANE void put_velocities(const CpuState& state, const std::uint32_t* bodie
     const std::uint32_t pushed = lanes & bits_of(v.inverse_mass != 0.0f);
     scatter(state.velocities.data, bodies, 0, pushed, {v.linear.x, v.linear.y, v.linear.z, v.inverse_mass});
     scatter(state.velocities.data, bodies, 1, pushed, {v.angular.x, v.angular.y, v.angular.z, v.reserved});
+}
+
+TALUS_LANE void put_deltas(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
+                           const BodyDelta& d) {
+    scatter(state.deltas.data, bodies, 0, lanes, {d.position.x, d.position.y, d.position.z, d.reserved});
+    scatter(state.deltas.data, bodies, 1, lanes, {d.rotation.x, d.rotation.y, d.rotation.z, d.rotation.w});
+}
+
+TALUS_LANE BodyWarmStart warm_starts_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto a = gather(state.warm_starts.data, bodies, 0), b = gather(state.warm_starts.data, bodies, 1),
+               c = gather(state.warm_starts.data, bodies, 2), d = gather(state.warm_starts.data, bodies, 3);
+    return {three_of(a), a.w, three_of(b), b.w, three_of(c), c.w, three_of(d), d.w};
+}
+
+TALUS_LANE void put_warm_starts(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
+                                const BodyWarmStart& w) {
+    scatter(state.warm_starts.data, bodies, 0, lanes, {w.linear.x, w.linear.y, w.linear.z, w.shift_x});
+    scatter(state.warm_starts.data, bodies, 1, lanes, {w.angular.x, w.angular.y, w.angular.z, w.shift_y});
+    scatter(state.warm_starts.data, bodies, 2, lanes,
+            {w.linear_before.x, w.linear_before.y, w.linear_before.z, w.shift_z});
+    scatter(state.warm_starts.data, bodies, 3, lanes,
+            {w.angular_before.x, w.angular_before.y, w.angular_before.z, w.reserved});
+}
+
+TALUS_LANE BodyProperties properties_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto a = gather(state.properties.data, bodies, 0), b = gather(state.properties.data, bodies, 1),
+               c = gather(state.properties.data, bodies, 2);
+    return {three_of(a),         a.w, b.x, b.y, b.z, b.w, c.x, floatBitsToUint(c.y), floatBitsToUint(c.z),
+            floatBitsToUint(c.w)};
+}
+
+TALUS_LANE BodyLoad loads_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto force = gather(state.loads.data, bodies, 0), torque = gather(state.loads.data, bodies, 1);
+    return {three_of(force), force.w, three_of(torque), torque.w};
 }
 
 TALUS_LANE BodyDelta deltas_at(const CpuState& state, const std::uint32_t* bodies) {
@@ -103,8 +137,8 @@ struct Places {
 };
 
 /// As pass_over_constraint in contact_passes.h.
-inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t substep,
-                                     const std::uint32_t* indices, std::uint32_t count) {
+inline std::uint32_t pass_over_constraints(const CpuState& state, ContactPass pass, std::uint32_t substep,
+                                           const std::uint32_t* indices, std::uint32_t count) {
     Places places;
     std::uint32_t active = 0, left_alone = 0;
     for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
@@ -137,6 +171,51 @@ inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, st
     put_velocities(state, places.body_a, active, s.velocities.a);
     put_velocities(state, places.body_b, active, s.velocities.b);
     return left_alone;
+}
+
+/// As integrate_body in body_passes.h.
+inline std::uint32_t integrate_bodies(const CpuState& state, std::uint32_t substep, const std::uint32_t* indices,
+                                      std::uint32_t count) {
+    std::uint32_t bodies[k_lanes];
+    std::uint32_t active = 0, ending = 0, rigid = 0; // bits
+    for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
+        const std::uint32_t body = bodies[lane] = indices[lane < count ? lane : 0];
+        const std::uint32_t substeps = state.inertias.data[body].substeps, bit = 1u << lane;
+        const std::uint32_t kind = state.shapes.data[body].type >> 8;
+        if (lane >= count || substep > substeps || (kind != k_kind_rigid && kind != k_kind_kinematic) ||
+            (state.poses.data[body].flags & k_body_frozen) != 0)
+            continue;
+        active |= bit;
+        if (substep == substeps) ending |= bit;
+        if (kind == k_kind_rigid) rigid |= bit;
+    }
+    if (active == 0) return 0;
+
+    const Parameters& p = state.parameters;
+    const BodyInertia inertia = inertias_at(state, bodies);
+    const Lanes h = substep_length(inertia.substeps, p);
+    BodyVelocity velocity = velocities_at(state, bodies);
+    BodyDelta delta = deltas_at(state, bodies);
+    BodyWarmStart warm = warm_starts_at(state, bodies);
+    if (substep > 0) delta = integrate_position(delta, warm, velocity, h);
+    const std::uint32_t going_on = active & ~ending;
+    std::uint32_t unusual = 0;
+    if (going_on != 0) {
+        const vec4 rotation = multiply_quaternions(delta.rotation, all_of(gather(state.poses.data, bodies, 1)));
+        warm = gather_impulses(warm, velocity);
+        velocity = integrate_velocity(velocity, warm, rotation, properties_at(state, bodies), inertia,
+                                      loads_at(state, bodies), mask_of(rigid), h, p);
+        unusual = going_on & ~bits_of(is_finite3(velocity.linear) && is_finite3(velocity.angular));
+        warm.linear_before = velocity.linear;
+        warm.angular_before = velocity.angular;
+        put_warm_starts(state, bodies, going_on & ~unusual, warm);
+        scatter(state.velocities.data, bodies, 0, going_on & ~unusual,
+                {velocity.linear.x, velocity.linear.y, velocity.linear.z, velocity.inverse_mass});
+        scatter(state.velocities.data, bodies, 1, going_on & ~unusual,
+                {velocity.angular.x, velocity.angular.y, velocity.angular.z, velocity.reserved});
+    }
+    if (substep > 0) put_deltas(state, bodies, active & ~unusual, delta);
+    return unusual;
 }
 
 } // namespace talus::engine::TALUS_LANES_NAME
