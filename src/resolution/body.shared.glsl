@@ -47,10 +47,9 @@ inline vec3 limit_length(vec3 v, float limit)
 {
     float square = dot3(v, v);
     precise float square_limit = limit * limit;
-    bool over = square > square_limit;
-    if (!any_lane(over)) return v;
+    if (!any_lane(square > square_limit)) return v;
     precise float scale = limit * inverse_sqrt(square);
-    return choose(over, scale3(v, scale), v);
+    return choose_active(square > square_limit, scale3(v, scale), v);
 }
 
 // Angular velocity after h under no torque, in body axes: Euler's equation I w' = -w x I w by the implicit midpoint
@@ -140,20 +139,19 @@ inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm
     float angular_factor = damping_factor(body.angular_damping, h);
     angular = limit_length(angular, p.max_angular_speed);
     vec3 d = body.inverse_inertia;
-    bool uneven = d.x != d.y || d.y != d.z;
-    if (any_lane(uneven)) {
+    if (any_lane(d.x != d.y || d.y != d.z)) {
         vec3 local = rotate_back(rotation, angular);
         precise float turn = 4.0f * length3(local) * h; // in quarters of a radian
-        uint parts = choose(uneven, uint(min(turn, 255.0f)) + 1u, 1u);
+        uint parts = choose_active(d.x != d.y || d.y != d.z, uint(min(turn, 255.0f)) + 1u, 1u);
         precise float part = h * reciprocal(float(parts));
         for (uint i = 0u; any_lane(i < parts); i += 1u)
-            local = choose(i < parts, turn_freely(local, d, part), local);
-        angular = choose(uneven, rotate(rotation, local), angular);
+            local = choose_active(i < parts, turn_freely(local, d, part), local);
+        angular = choose_active(d.x != d.y || d.y != d.z, rotate(rotation, local), angular);
     }
     precise vec3 started_linear = limit_length(scale3(linear, linear_factor), p.max_linear_speed) + warm.linear;
     precise vec3 started_angular = limit_length(scale3(angular, angular_factor), p.max_angular_speed) + warm.angular;
-    velocity.linear = choose(rigid, started_linear, linear);
-    velocity.angular = choose(rigid, started_angular, velocity.angular);
+    velocity.linear = choose_active(rigid, started_linear, linear);
+    velocity.angular = choose_active(rigid, started_angular, velocity.angular);
     return velocity;
 }
 

@@ -72,10 +72,9 @@ inline float slip_share(vec3 apart, float share_a, float share_b, Meeting m)
     precise float yielding = share_a * share_a * largest_diagonal(m.inertia_a) +
                              share_b * share_b * largest_diagonal(m.inertia_b);
     precise float growth = yielding * dot3(apart, apart);
-    bool small = growth <= m.inverse_masses;
-    if (all_lanes(small)) return 1.0f;
+    if (all_lanes(growth <= m.inverse_masses)) return 1.0f;
     precise float square = m.inverse_masses * reciprocal(growth);
-    return choose(small, 1.0f, square_root(square));
+    return choose_active(!(growth <= m.inverse_masses), square_root(square), 1.0f);
 }
 
 // `gap` and `traits`: the constraint's.
@@ -329,11 +328,8 @@ inline uint sweeps_at(vec4 velocity)
 inline NormalSweep solve_normals(NormalSweep sweep, ManifoldRows rows, NormalTarget target)
 {
     uint sweeps = sweeps_at(sweep.velocity);
-    for (uint i = 0u; any_lane(i < sweeps); i += 1u) {
-        NormalSweep next = sweep_normals(sweep, rows, target);
-        sweep.velocity = choose(i < sweeps, next.velocity, sweep.velocity);
-        sweep.impulse = choose(i < sweeps, next.impulse, sweep.impulse);
-    }
+    for (uint i = 0u; any_lane(i < sweeps); i += 1u)
+        sweep = choose_active(i < sweeps, sweep_normals(sweep, rows, target), sweep);
     return sweep;
 }
 
@@ -357,7 +353,7 @@ inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Friction
     on_sphere = limit_each(multiply3(sliding, target.inverse_radii), k_most_radii);
     float square = dot3(on_sphere, on_sphere);
     on_sphere = choose(square > 1.0f, scale3(on_sphere, inverse_sqrt(square)), on_sphere);
-    return choose(sticks, sticking, multiply3(on_sphere, target.radii));
+    return choose_active(!sticks, multiply3(on_sphere, target.radii), sticking);
 }
 
 // ---- passes ----

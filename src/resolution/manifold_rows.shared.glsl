@@ -157,9 +157,8 @@ inline ManifoldRows couple_rows(ManifoldRows rows, NormalResponse r)
 // Of a share of a hub. `its_traits`: the constraint's, of this body.
 inline BodyInertia share_inertia(BodyInertia m, uint its_traits)
 {
-    bool whole = (its_traits & k_trait_hub) == 0u;
-    if (all_lanes(whole)) return m;
-    float shares = choose(whole, 1.0f, float(m.traits >> k_trait_shares));
+    if (all_lanes((its_traits & k_trait_hub) == 0u)) return m;
+    float shares = choose_active((its_traits & k_trait_hub) != 0u, float(m.traits >> k_trait_shares), 1.0f);
     precise vec3 diagonal = vec3(m.xx, m.yy, m.zz) * shares;
     precise vec3 rest = vec3(m.xy, m.xz, m.yz) * shares;
     BodyInertia share;

@@ -16,8 +16,9 @@
 #define precise
 
 // Formulas that run on several items side by side (device/cpu/lanes.h) choose by these instead of by ?: and if. For one
-// item they are the same.
+// item they are the same; choose_active() stands where one item is known to fulfil the condition.
 #define choose(condition, yes, no) ((condition) ? (yes) : (no))
+#define choose_active(condition, yes, no) (yes)
 #define all_lanes(condition) (condition)
 #define any_lane(condition) (condition)
 

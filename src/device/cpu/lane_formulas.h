@@ -8,6 +8,7 @@
 
 // Functions of lanes in what follows.
 #undef choose
+#undef choose_active
 #undef all_lanes
 #undef any_lane
 #include "device/cpu/lanes.h"
@@ -19,6 +20,7 @@ TALUS_LANE vec3 operator*(glm::vec3 a, Lanes b) {
     return {a.x * b, a.y * b, a.z * b};
 }
 
+#define choose_active choose
 #define float Lanes
 #define uint ULanes
 #define bool Mask
@@ -37,8 +39,14 @@ using engine::Parameters; // the same for all lanes
 #include "resolution/body.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 
+struct NormalSweep;
+inline NormalSweep choose(bool, const NormalSweep&, const NormalSweep&);
 #include "resolution/contact.shared.glsl"
+inline NormalSweep choose(bool m, const NormalSweep& yes, const NormalSweep& no) {
+    return {choose(m, yes.velocity, no.velocity), choose(m, yes.impulse, no.impulse)};
+}
 
+#undef choose_active
 #undef float
 #undef uint
 #undef bool

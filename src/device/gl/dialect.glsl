@@ -4,6 +4,7 @@
 
 // Formulas choose by these instead of by ?: and if where the CPU runs them on several items side by side.
 #define choose(condition, yes, no) ((condition) ? (yes) : (no))
+#define choose_active(condition, yes, no) (yes) // where the condition is known to hold
 #define all_lanes(condition) (condition)
 #define any_lane(condition) (condition)
 
