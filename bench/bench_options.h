@@ -24,7 +24,10 @@ struct BenchOptions {
     bool stages = false;
     bool json = false;
     std::filesystem::path against;       ///< lines of an earlier `--json`; empty: none
-    std::filesystem::path solver_curves; ///< CSV file of the other experiment; empty: the benchmark
+    std::filesystem::path solver_curves; ///< CSV file of another experiment; empty: the benchmark
+    std::filesystem::path size_curves;   ///< the same
+    std::vector<std::uint32_t> sizes;    ///< boxes, for the size curves
+    std::uint32_t churn = 0;             ///< bodies removed and added before each step
 };
 
 void add_bench_options(CLI::App& command, BenchOptions& options);

@@ -16,6 +16,7 @@
 #include "bench/measurement.h"
 #include "bench/peer.h"
 #include "bench/row_lines.h"
+#include "bench/size_curves.h"
 #include "bench/solver_curves.h"
 #include "cli/commands.h"
 
@@ -93,9 +94,11 @@ int run_benchmark(BenchOptions options) {
 }
 
 int run_bench(const BenchOptions& options) {
-    if (options.solver_curves.empty()) return run_benchmark(options);
-    const std::uint64_t nonfinite = bench::measure_solver_curves(options, stdout);
-    fmt::print("wrote {}\n", options.solver_curves.string());
+    const bool sizes = !options.size_curves.empty();
+    if (!sizes && options.solver_curves.empty()) return run_benchmark(options);
+    const std::uint64_t nonfinite =
+        sizes ? bench::measure_size_curves(options, stdout) : bench::measure_solver_curves(options, stdout);
+    fmt::print("wrote {}\n", (sizes ? options.size_curves : options.solver_curves).string());
     if (nonfinite == 0) return k_done;
     fmt::print(stderr, "talus: {} bodies became non-finite and were frozen, in all runs together\n", nonfinite);
     return k_failed_own_check;

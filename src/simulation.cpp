@@ -96,6 +96,10 @@ std::uint64_t Simulation::memory_bytes() const {
     return placement.detection->memory_bytes() + (placement.hybrid() ? placement.resolution->memory_bytes() : 0);
 }
 
+std::uint64_t Simulation::launch_count() const {
+    return placement.detection->launch_count() + (placement.hybrid() ? placement.resolution->launch_count() : 0);
+}
+
 void Simulation::grow_everywhere(BufferId buffer, std::size_t elements) {
     const std::size_t bytes = elements * k_buffers[static_cast<std::size_t>(buffer)].stride;
     for (Device* device : {gpu.get(), cpu.get()})
@@ -144,7 +148,7 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     while (pending.size() >= k_most_pending)
         finish_oldest();
     transferred.to_device += bytes_of(changes);
-    enqueue({0, population, with_poses, std::move(changes)});
+    enqueue({0, population, with_poses, std::move(changes), 0});
 }
 
 void Simulation::change_bodies(const Population& population, const BodyChanges& changes) {
@@ -213,7 +217,9 @@ void Simulation::enqueue(Pending entry) {
     placement.detection->set_parameters(parameters);
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);
     write_body_count(entry.population.slots);
+    const std::uint64_t launches_before = launch_count();
     entry.ticket = engine::step(placement, now, entry.with_poses, entry.changes);
+    entry.launches = launch_count() - launches_before;
     pending.push_back(std::move(entry));
 }
 
@@ -240,6 +246,7 @@ void Simulation::finish_oldest() {
     ++finished_count;
     newest_ticket = done.ticket;
     newest_has_poses = done.with_poses;
+    newest_report.dispatches = static_cast<std::uint32_t>(done.launches);
     pending.pop_front();
 
     StepReport& report = newest_report;

@@ -65,8 +65,10 @@ private:
         Population population;
         bool with_poses;
         BodyChanges changes;
+        std::uint64_t launches = 0;
     };
 
+    std::uint64_t launch_count() const;
     void write_bytes(BufferId, std::size_t offset, std::span<const std::byte>);
     void enqueue(Pending);
     /// With nothing on its way.

@@ -106,6 +106,8 @@ public:
     /// Makes kernels that will be launched soon ready, side by side where the device can. Waits for none of them.
     virtual void prepare(std::span<const Kernel* const>) {}
     virtual void run(const Launch&) = 0;
+    /// How many launches it has been given, but for those without items.
+    std::uint64_t launch_count() const { return launches; }
 
     /// Marks the start of a stage for profilers and debuggers; the one before it ends.
     virtual void begin_stage(Stage) = 0;
@@ -125,6 +127,9 @@ public:
     /// For drawing without a copy; 0 on a device without OpenGL.
     virtual std::uint32_t gl_name(BufferId) const { return 0; }
     virtual void make_current() {}
+
+protected:
+    std::uint64_t launches = 0;
 };
 
 /// Both throw talus::Error.

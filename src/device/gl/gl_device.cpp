@@ -173,6 +173,7 @@ void GlDevice::run_kernel(const Launch& launch) {
     }
     glMemoryBarrier(barriers);
     kernels_pending_ = true;
+    ++launches;
 }
 
 void GlDevice::begin_stage(Stage stage) {
