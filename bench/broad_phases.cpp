@@ -56,6 +56,7 @@ std::uint64_t measure_broad_phases(const BenchOptions& given, std::FILE* out) {
     for (const Case& bench_case : cases) {
         std::uint64_t body_count = 0;
         for (const auto& [word, broad_phase] : cli::broad_phase_words()) {
+            if (broad_phase == BroadPhase::Auto) continue;
             if (broad_phase == BroadPhase::Brute && body_count > k_most_by_force) continue; // the last in the list
             options.simulation.broad_phase = broad_phase;
             const Row row = measure(bench_case, options).talus;

@@ -95,7 +95,7 @@ Json to_json(const RunReport& report) {
         {"iterations", report.settings.iterations},
         {"stabilisation", word_of(stabilisation_words(), report.settings.stabilisation)},
         {"solve_order", word_of(solve_order_words(), report.settings.solve_order)},
-        {"broad_phase", word_of(broad_phase_words(), report.settings.broad_phase)},
+        {"broad_phase", word_of(broad_phase_words(), report.last_step.broad_phase)},
         {"bodies",
          {{"total", report.bodies.total},
           {"dynamic", report.bodies.dynamic},

@@ -125,7 +125,7 @@ void add_solver_options(CLI::App& command, SimulationOptions& options) {
     add_choice(command, "--solve-order", options.solve_order, solve_order_words(),
                "How a pass goes through the contacts: in batches that share no body, or one after the other");
     add_choice(command, "--broad-phase", options.broad_phase, broad_phase_words(),
-               "How pairs are found: sweep and prune, a tree of bounding boxes, or every pair");
+               "How pairs are found: sweep and prune, a tree of bounding boxes, every pair, or what is fastest");
 }
 
 void add_overlay_option(CLI::App& command, render::Overlays& overlays) {

@@ -35,12 +35,12 @@ std::string device_text(const DeviceInfo& device) {
 std::string step_text(const RunReport& report) {
     const Settings& settings = report.settings;
     const bool soft = settings.stabilisation == Stabilisation::Soft;
-    return fmt::format("{} of {:.5g} ms: {}, {}{}{}, broad phase {}, {}", report.timing.steps, settings.dt * 1e3,
-                       word_of(stabilisation_words(), settings.stabilisation),
-                       soft ? counted(report.last_step.substeps, "sub-step") + " of " : "",
-                       counted(settings.iterations, "iteration"),
-                       settings.solve_order == SolveOrder::Coloured ? "" : " in sequential order",
-                       word_of(broad_phase_words(), settings.broad_phase), counted(report.last_step.growths, "growth"));
+    return fmt::format(
+        "{} of {:.5g} ms: {}, {}{}{}, broad phase {}, {}", report.timing.steps, settings.dt * 1e3,
+        word_of(stabilisation_words(), settings.stabilisation),
+        soft ? counted(report.last_step.substeps, "sub-step") + " of " : "", counted(settings.iterations, "iteration"),
+        settings.solve_order == SolveOrder::Coloured ? "" : " in sequential order",
+        word_of(broad_phase_words(), report.last_step.broad_phase), counted(report.last_step.growths, "growth"));
 }
 
 std::string speed_text(const RunReport& report) {

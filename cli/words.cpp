@@ -11,8 +11,10 @@ template <typename T> using Word = std::pair<std::string_view, T>;
 
 constexpr std::array<Word<DeviceKind>, 4> k_devices{
     {{"auto", DeviceKind::Auto}, {"gpu", DeviceKind::Gpu}, {"cpu", DeviceKind::Cpu}, {"hybrid", DeviceKind::Hybrid}}};
-constexpr std::array<Word<BroadPhase>, 3> k_broad_phases{
-    {{"sap", BroadPhase::SweepAndPrune}, {"bvh", BroadPhase::Bvh}, {"brute", BroadPhase::Brute}}};
+constexpr std::array<Word<BroadPhase>, 4> k_broad_phases{{{"auto", BroadPhase::Auto},
+                                                          {"sap", BroadPhase::SweepAndPrune},
+                                                          {"bvh", BroadPhase::Bvh},
+                                                          {"brute", BroadPhase::Brute}}};
 constexpr std::array<Word<SolveOrder>, 2> k_solve_orders{
     {{"coloured", SolveOrder::Coloured}, {"sequential", SolveOrder::Sequential}}};
 constexpr std::array<Word<Stabilisation>, 2> k_stabilisations{

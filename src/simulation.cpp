@@ -202,7 +202,7 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     while (pending.size() >= k_most_pending)
         finish_oldest();
     transferred.to_device += bytes_of(changes);
-    enqueue({0, population, with_poses, std::move(changes), 0});
+    enqueue({0, population, with_poses, std::move(changes)});
 }
 
 void Simulation::change_bodies(const Population& population, const BodyChanges& changes) {
@@ -233,11 +233,12 @@ void Simulation::write_body_count(uint slots) {
 StepPlan Simulation::plan_step(const Population& population) const {
     const Passes passes = passes_of(settings);
     StepPlan now = plan;
-    now.broad_phase = settings.broad_phase;
     now.body_count = population.slots;
     now.iterations = passes.iterations;
     now.relax = passes.relax;
     now.small = population.slots <= k_island_bodies;
+    now.broad_phase = settings.broad_phase;
+    if (now.broad_phase == BroadPhase::Auto) now.broad_phase = now.small ? BroadPhase::SweepAndPrune : BroadPhase::Bvh;
     now.one_island = population.some_kinematic;
     const bool one_group_each = now.small && plan.hub_capacity == 0;
     now.in_groups = (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
@@ -274,6 +275,7 @@ void Simulation::enqueue(Pending entry) {
     const std::uint64_t launches_before = launch_count();
     entry.ticket = engine::step(placement, now, entry.with_poses, entry.changes);
     entry.launches = launch_count() - launches_before;
+    entry.broad_phase = now.broad_phase;
     pending.push_back(std::move(entry));
 }
 
@@ -302,6 +304,7 @@ void Simulation::finish_oldest() {
     newest_ticket = done.ticket;
     newest_has_poses = done.with_poses;
     newest_report.dispatches = static_cast<std::uint32_t>(done.launches);
+    newest_report.broad_phase = done.broad_phase;
     pending.pop_front();
 
     StepReport& report = newest_report;

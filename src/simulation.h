@@ -83,6 +83,7 @@ private:
         Population population;
         bool with_poses;
         BodyChanges changes;
+        BroadPhase broad_phase = BroadPhase::Auto; // that the step used
         std::uint64_t launches = 0;
     };
 

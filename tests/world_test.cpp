@@ -375,6 +375,27 @@ TEST_P(Worlds, profile_every_stage_where_asked_to) {
 
 // ---- time and settings ----
 
+TEST_P(Worlds, the_broad_phase_follows_the_size_of_the_world_unless_one_is_asked_for) {
+    World world = make_world();
+    EXPECT_EQ(world.report().broad_phase, BroadPhase::Auto); // no step yet
+    world.add(ground());
+    for (int i = 1; i < 1024; ++i)
+        world.add(box_at({2.0f * static_cast<float>(i), 0.5f, 0.0f}));
+    world.step();
+    world.wait();
+    EXPECT_EQ(world.report().broad_phase, BroadPhase::SweepAndPrune);
+    world.add(box_at({-2.0f, 0.5f, 0.0f}));
+    world.step();
+    world.wait();
+    EXPECT_EQ(world.report().broad_phase, BroadPhase::Bvh);
+    Settings settings = world.settings();
+    settings.broad_phase = BroadPhase::SweepAndPrune;
+    world.set_settings(settings);
+    world.step();
+    world.wait();
+    EXPECT_EQ(world.report().broad_phase, BroadPhase::SweepAndPrune);
+}
+
 TEST_P(Worlds, settings_may_change_while_the_world_runs) {
     World world = make_world();
     world.add(bodies_of("stack:height=4"));

@@ -28,6 +28,7 @@ enum class GlContext : std::uint32_t {
 
 /// How the broad phase finds pairs.
 enum class BroadPhase : std::uint32_t {
+    Auto,          ///< what is fastest: sweep and prune up to 1,024 body slots, the tree above
     SweepAndPrune, ///< sort along the axis of largest spread, then sweep (thesis, section 3.2)
     Bvh,           ///< sort along a Hilbert curve, then search a tree of bounding boxes over that order
     Brute,         ///< every pair (thesis, algorithm 1): the oracle
@@ -60,8 +61,8 @@ struct Settings {
     float restitution_threshold = 1.0f; ///< m/s; slower impacts do not bounce
     float max_linear_speed = 500.0f;    ///< m/s; bodies are held to it
     float max_angular_speed = 200.0f;   ///< rad/s
-    BroadPhase broad_phase = BroadPhase::SweepAndPrune; ///< how pairs are found
-    SolveOrder solve_order = SolveOrder::Coloured;      ///< in what order contacts are solved
+    BroadPhase broad_phase = BroadPhase::Auto;     ///< how pairs are found
+    SolveOrder solve_order = SolveOrder::Coloured; ///< in what order contacts are solved
     std::uint32_t hub_contacts = 1000; ///< a body with more is solved by shares: fast, but few may not carry it
 };
 

@@ -26,8 +26,9 @@ struct StepReport {
     std::uint32_t frozen_bodies = 0; ///< bodies whose velocity became non-finite, in all steps so far
     std::uint32_t growths = 0;       ///< steps done again with larger buffers or more launches, so far
     std::uint32_t dispatches = 0;    ///< launches of kernels that the host gave
-    double step_ms = 0.0;            ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
-    std::vector<double> stage_ms;    ///< one a stage, in the order of stage_names(); empty unless profiled
+    BroadPhase broad_phase = BroadPhase::Auto; ///< what found the pairs; Auto before the first step
+    double step_ms = 0.0;         ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
+    std::vector<double> stage_ms; ///< one a stage, in the order of stage_names(); empty unless profiled
 };
 
 /// What runs the step, in words for people.
