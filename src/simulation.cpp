@@ -256,7 +256,7 @@ StepPlan Simulation::plan_step(const Population& population) const {
 
 void Simulation::prepare_kernels(const StepPlan& first) {
     if (kernels_prepared || !gpu) return;
-    KernelList list;
+    KernelList list(*gpu);
     for (std::size_t i = 0; i < k_stage_count; ++i) {
         const Stage stage{static_cast<int>(i)};
         if (&placement.of(stage) == gpu.get()) run_stage(list, stage, first);

@@ -2,7 +2,6 @@
 // A device that only notes what it is given to run: with it the step itself tells which kernels it needs.
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "device/device.h"
@@ -11,6 +10,9 @@ namespace talus::engine {
 
 class KernelList final : public Device {
 public:
+    /// In the place of `device`, whose buffers it leaves as they are. The device must outlive it.
+    explicit KernelList(const Device& device) : replaced(device) {}
+
     /// In the order of their first launch.
     std::vector<const Kernel*> kernels;
 
@@ -18,7 +20,7 @@ public:
 
     DeviceInfo info() const override { return {}; }
     void grow(BufferId, std::size_t) override {}
-    std::size_t size(BufferId) const override { return std::numeric_limits<std::size_t>::max(); }
+    std::size_t size(BufferId buffer) const override { return replaced.size(buffer); }
     std::uint64_t memory_bytes() const override { return 0; }
     void write(BufferId, std::size_t, std::span<const std::byte>) override {}
     void read(std::span<const ReadRequest>) override {}
@@ -32,6 +34,9 @@ public:
     std::span<const BodyPose> poses(Ticket) const override { return {}; }
     std::span<const ContactReport> reports(Ticket) const override { return {}; }
     std::span<const double> stage_ms(Ticket) const override { return {}; }
+
+private:
+    const Device& replaced;
 };
 
 } // namespace talus::engine
