@@ -86,8 +86,31 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
                                     .add_option("--broad-phases", options.broad_phases,
                                                 "Measure the broad phases side by side instead, and write it as CSV")
                                     ->type_name("FILE.csv");
-    for (CLI::Option* other : {repeats, stages, peer, json, against, command.get_option("--broad-phase"), curves})
+    CLI::Option* churn =
+        command
+            .add_option("--churn", options.churn, "Before each step, remove so many bodies and add the same ones again")
+            ->check(CLI::Range(1u, 1'000'000u))
+            ->type_name("N")
+            ->excludes(peer);
+    CLI::Option* size_curves =
+        command
+            .add_option("--size-curves", options.size_curves,
+                        "Measure grid and pile, or those of them that are given, over the number of boxes instead, and "
+                        "write time, memory, dispatches and quality as CSV")
+            ->type_name("FILE.csv");
+    command
+        .add_option("--sizes", options.sizes,
+                    "Numbers of boxes for --size-curves, separated by commas; by default 100 to 30,000")
+        ->delimiter(',')
+        ->check(CLI::Range(1u, 2'000'000u))
+        ->type_name("N,N")
+        ->needs(size_curves);
+    for (CLI::Option* other :
+         {repeats, stages, peer, json, against, command.get_option("--broad-phase"), curves, churn, size_curves})
         broad_phases->excludes(other);
+    for (CLI::Option* other : {repeats, stages, peer, json, against, curves, churn})
+        size_curves->excludes(other);
+    curves->excludes(churn);
     for (CLI::Option* other :
          {repeats, stages, peer, json, against, command.get_option("--iterations"), command.get_option("--substeps"),
           command.get_option("--stabilisation"), command.get_option("--solve-order")})

@@ -27,6 +27,9 @@ struct BenchOptions {
     // CSV files of the other experiments; empty: the benchmark
     std::filesystem::path solver_curves;
     std::filesystem::path broad_phases;
+    std::filesystem::path size_curves;
+    std::vector<std::uint32_t> sizes; ///< boxes, for the size curves
+    std::uint32_t churn = 0;          ///< bodies removed and added before each step
 };
 
 void add_bench_options(CLI::App& command, BenchOptions& options);

@@ -87,6 +87,7 @@ Measurement measure(const Case& bench_case, const BenchOptions& options) {
         const std::uint32_t block = has_peer ? std::min(k_block, steps - done) : steps;
         for (std::uint32_t i = 0; i < block; ++i) {
             cli::check_interrupt();
+            run.replace_bodies(options.churn);
             run.step();
             progress.show(done + (has_peer ? i / 2 : i));
         }

@@ -17,6 +17,7 @@
 #include "bench/measurement.h"
 #include "bench/peer.h"
 #include "bench/row_lines.h"
+#include "bench/size_curves.h"
 #include "bench/solver_curves.h"
 #include "cli/commands.h"
 
@@ -108,6 +109,7 @@ int run_bench(const BenchOptions& options) {
         return run_experiment(bench::measure_solver_curves, options, options.solver_curves);
     if (!options.broad_phases.empty())
         return run_experiment(bench::measure_broad_phases, options, options.broad_phases);
+    if (!options.size_curves.empty()) return run_experiment(bench::measure_size_curves, options, options.size_curves);
     return run_benchmark(options);
 }
 

@@ -40,13 +40,36 @@ TimedRun::TimedRun(scenes::Scene scene, const Settings& settings, const WorldOpt
     for (const scenes::NamedBody& body : source.bodies)
         definitions.push_back(body.definition);
     simulated.make_gl_current(); // spares each step the change of context
-    simulated.add(definitions);
+    ids = simulated.add(definitions);
     simulated.wait();
+}
+
+void TimedRun::replace_bodies(std::uint32_t count) {
+    replacing = count;
+}
+
+void TimedRun::replace_now() {
+    const std::size_t body_count = ids.size();
+    std::vector<BodyDefinition> definitions;
+    std::vector<std::size_t> places;
+    for (std::size_t looked = 0; looked < body_count && places.size() < replacing; ++looked) {
+        const std::size_t place = next_replaced++ % body_count;
+        const BodyDefinition& definition = source.bodies[place].definition;
+        if (definition.kind != BodyKind::Rigid) continue;
+        simulated.remove(ids[place]);
+        definitions.push_back(definition);
+        places.push_back(place);
+    }
+    const std::vector<BodyId> added = simulated.add(definitions);
+    for (std::size_t i = 0; i < added.size(); ++i)
+        ids[places[i]] = added[i];
+    replacing = 0;
 }
 
 void TimedRun::step() {
     ++times.steps;
     if (times.steps == 1 && planned_steps > 1) {
+        replace_now();
         simulated.step(1);
         simulated.wait();
         return;
@@ -59,6 +82,7 @@ void TimedRun::step() {
     if (times.steps % sample_interval == 0) {
         sample_step();
     } else {
+        replace_now();
         simulated.step(1);
     }
 }
@@ -73,6 +97,7 @@ void TimedRun::settle() {
 void TimedRun::sample_step() {
     simulated.wait();
     const Clock::time_point before = Clock::now();
+    replace_now();
     simulated.step(1);
     simulated.wait();
     times.step_ms.push_back(milliseconds(Clock::now() - before));

@@ -36,6 +36,9 @@ public:
     const World& world() const noexcept { return simulated; }
     const scenes::Scene& scene() const noexcept { return source; }
 
+    /// Removes the next `count` dynamic bodies of the scene, in turn, and adds each again as the scene has it. Part of
+    /// the time of the step that follows.
+    void replace_bodies(std::uint32_t count);
     /// On a GPU it returns while the step is on its way, unless the step is sampled. The first step is not timed where
     /// more follow: it compiles the kernels.
     void step();
@@ -48,6 +51,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     void sample_step();
+    void replace_now();
 
     scenes::Scene source;
     World simulated;
@@ -55,6 +59,9 @@ private:
     std::uint32_t planned_steps;
     std::uint32_t sample_interval;
     bool profile;
+    std::vector<BodyId> ids; ///< of the scene's bodies
+    std::uint32_t replacing = 0;
+    std::size_t next_replaced = 0;
     bool running = false;
     Clock::time_point start;
 };

@@ -52,7 +52,7 @@ const std::vector<BuiltIn>& built_in_scenes() {
           "a square field of columns, 2 m apart",
           {whole("side", 100, 1, 300, "columns along each side"), whole("height", 10, 1, 50, "boxes in a column")}},
          make_columns},
-        {{"grid", "separate stacks of 5 boxes", {whole("stacks", 4000, 1, 200'000, "how many stacks")}}, make_grid},
+        {{"grid", "separate stacks of 5 boxes", {whole("stacks", 4000, 1, 400'000, "how many stacks")}}, make_grid},
         {{"pile",
           "boxes with edges of 0.5 to 1.5 m fall into a container",
           {whole("boxes", 32000, 1, 1'000'000, "how many boxes"), seed()}},

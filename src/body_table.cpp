@@ -2,7 +2,10 @@
 #include "body_table.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <span>
+#include <utility>
 
 namespace talus::engine {
 namespace {
@@ -65,26 +68,45 @@ Shape unpack_shape(const BodyShape& shape) {
     return Sphere{shape.half_extents.x};
 }
 
-BodyId BodyTable::add(const BodyDefinition& definition) {
-    uint slot;
-    if (free_slots.empty()) {
-        slot = slot_count();
-        poses.emplace_back();
-        velocities.emplace_back();
-        shapes.emplace_back();
-        properties.emplace_back();
-        loads.emplace_back();
-        masses.emplace_back();
-        inertias.emplace_back();
-        generations.push_back(0);
-        if (next_generations.size() == slot) next_generations.push_back(0);
-        present.push_back(0);
-        dirty.push_back(0);
-    } else {
-        slot = free_slots.back();
-        free_slots.pop_back();
-    }
+void BodyTable::append_slot() {
+    poses.emplace_back();
+    velocities.emplace_back();
+    shapes.emplace_back();
+    properties.emplace_back();
+    loads.emplace_back();
+    masses.emplace_back();
+    inertias.emplace_back();
+    uses.push_back(Use::Free);
+    dirty.push_back(0);
+    generations.resize(std::max(generations.size(), uses.size()));
+    next_generations.resize(std::max(next_generations.size(), uses.size()));
+}
 
+void BodyTable::drop_last_slot() {
+    poses.pop_back();
+    velocities.pop_back();
+    shapes.pop_back();
+    properties.pop_back();
+    loads.pop_back();
+    masses.pop_back();
+    inertias.pop_back();
+    uses.pop_back();
+    dirty.pop_back();
+}
+
+uint BodyTable::take_slot() {
+    while (!free_slots.empty()) {
+        std::ranges::pop_heap(free_slots, std::greater<>{});
+        const uint slot = free_slots.back();
+        free_slots.pop_back();
+        if (slot < slot_count() && uses[slot] == Use::Free) return slot;
+    }
+    append_slot();
+    return slot_count() - 1;
+}
+
+BodyId BodyTable::add(const BodyDefinition& definition) {
+    const uint slot = take_slot();
     generations[slot] = next_generations[slot]++;
     const bool rigid = definition.kind == BodyKind::Rigid;
     const auto [mass, inertia] = mass_properties(definition);
@@ -108,7 +130,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
     loads[slot] = {};
     if (material.restitution > 0.0f) ++bouncing_count;
     if (definition.kind == BodyKind::Kinematic) ++kinematic_count;
-    present[slot] = 1;
+    uses[slot] = Use::Present;
     ++present_count;
     mark(slot, k_dirty_all);
     return id_of(slot);
@@ -120,7 +142,7 @@ void BodyTable::remove(BodyId id) {
     if (kind_of(slot) == BodyKind::Kinematic) --kinematic_count;
     shapes[slot].type = k_kind_absent << 8;
     velocities[slot] = {};
-    present[slot] = 0;
+    uses[slot] = Use::Resting;
     --present_count;
     resting_slots.push_back(slot);
     mark(slot, k_dirty_shape | k_dirty_velocity);
@@ -131,14 +153,24 @@ void BodyTable::set_sensor(uint slot, bool wanted) {
 }
 
 bool BodyTable::contains(BodyId id) const noexcept {
-    return id.index < present.size() && present[id.index] != 0 && generations[id.index] == id.generation;
+    return id.index < uses.size() && is_present(id.index) && generations[id.index] == id.generation;
 }
 
 void BodyTable::recycle() {
-    // Lowest slot first, so that what a program gets does not depend on the order in which it removed.
-    free_slots.insert(free_slots.end(), resting_slots.begin(), resting_slots.end());
-    if (!resting_slots.empty()) std::ranges::sort(free_slots, std::greater{});
+    for (const uint slot : resting_slots) {
+        uses[slot] = Use::Free;
+        free_slots.push_back(slot);
+        std::ranges::push_heap(free_slots, std::greater<>{});
+    }
     resting_slots.clear();
+    while (!uses.empty() && uses.back() == Use::Free)
+        drop_last_slot();
+}
+
+void BodyTable::forget_loads() {
+    for (const uint slot : loaded)
+        loads[slot] = {};
+    loaded.clear();
 }
 
 void BodyTable::restore(const BodyTable& saved) {
@@ -148,6 +180,7 @@ void BodyTable::restore(const BodyTable& saved) {
     for (std::size_t slot = 0; slot < next_generations.size(); ++slot)
         newest[slot] = std::max(newest[slot], next_generations[slot]);
     next_generations = std::move(newest);
+    loaded.clear();
     for (uint slot = 0; slot < slot_count(); ++slot)
         mark(slot, k_dirty_all);
 }
@@ -155,44 +188,65 @@ void BodyTable::restore(const BodyTable& saved) {
 std::string BodyTable::complete() {
     const std::size_t slots = poses.size();
     for (const std::size_t size : {velocities.size(), shapes.size(), properties.size(), loads.size(), masses.size(),
-                                   inertias.size(), generations.size(), present.size()})
+                                   inertias.size(), uses.size()})
         if (size != slots) return "its lists of bodies have different lengths";
-    if (next_generations.size() < slots || slots > k_most_bodies) return "its lists of bodies have wrong lengths";
+    if (generations.size() < slots || next_generations.size() < generations.size() || slots > k_most_bodies)
+        return "its lists of bodies have wrong lengths";
     dirty.assign(slots, 0);
     changed.clear();
+    loaded.clear();
     present_count = bouncing_count = kinematic_count = 0;
     for (uint slot = 0; slot < slots; ++slot) {
         const uint shape = shapes[slot].type & 255u, kind = (shapes[slot].type & ~k_sensor_bit) >> 8;
-        if (present[slot] > 1 || generations[slot] >= next_generations[slot] ||
-            (present[slot] != 0 ? kind > k_kind_kinematic || shape > k_shape_sphere : kind != k_kind_absent))
+        if (uses[slot] > Use::Resting || generations[slot] >= next_generations[slot] ||
+            (is_present(slot) ? kind > k_kind_kinematic || shape > k_shape_sphere : kind != k_kind_absent))
             return "body " + std::to_string(slot) + " is of no known kind";
-        if (present[slot] == 0) continue;
+        if (!is_present(slot)) continue;
         ++present_count;
         if (properties[slot].restitution > 0.0f) ++bouncing_count;
         if (kind_of(slot) == BodyKind::Kinematic) ++kinematic_count;
     }
-    std::vector<std::uint8_t> listed(present);
-    for (const std::vector<uint>* list : {&free_slots, &resting_slots})
-        for (const uint slot : *list)
-            if (slot >= slots || listed[slot]++ != 0) return "its list of empty places is wrong";
+    std::vector<Use> unlisted(uses);
+    for (const uint slot : resting_slots) {
+        if (slot >= slots || unlisted[slot] != Use::Resting) return "its list of empty places is wrong";
+        unlisted[slot] = Use::Free;
+    }
+    if (std::ranges::count(unlisted, Use::Resting) != 0) return "its list of empty places is too short";
+    std::ranges::make_heap(free_slots, std::greater<>{}); // which of its entries are free is seen when one is taken
     return {};
 }
 
 void BodyTable::mark(uint slot, std::uint8_t what) {
     if (dirty[slot] == 0) changed.push_back(slot);
+    if ((what & k_dirty_load) != 0) loaded.push_back(slot);
     dirty[slot] |= what;
 }
 
-std::vector<std::pair<uint, std::uint8_t>> BodyTable::take_changes() {
-    std::ranges::sort(changed);
-    std::vector<std::pair<uint, std::uint8_t>> result;
-    result.reserve(changed.size());
-    for (const uint slot : changed) {
-        result.emplace_back(slot, dirty[slot]);
+BodyChanges BodyTable::take_changes() {
+    BodyChanges changes;
+    if (changed.empty()) return changes;
+    std::ranges::sort(changed); // neighbours go to neighbouring memory
+    const auto take = [&](std::uint8_t what, BufferId buffer, const auto& all) {
+        RecordChanges change{buffer, {}, {}};
+        for (const uint slot : changed)
+            if (is_dirty(slot, what)) change.slots.push_back(slot);
+        if (change.slots.empty()) return;
+        change.records.reserve(change.slots.size() * sizeof(all[0]));
+        for (const uint slot : change.slots) {
+            const auto bytes = std::as_bytes(std::span(&all[slot], 1));
+            change.records.insert(change.records.end(), bytes.begin(), bytes.end());
+        }
+        changes.push_back(std::move(change));
+    };
+    take(k_dirty_pose, BufferId::Poses, poses);
+    take(k_dirty_velocity, BufferId::Velocities, velocities);
+    take(k_dirty_shape, BufferId::Shapes, shapes);
+    take(k_dirty_properties, BufferId::Properties, properties);
+    take(k_dirty_load, BufferId::Loads, loads);
+    for (const uint slot : changed)
         dirty[slot] = 0;
-    }
     changed.clear();
-    return result;
+    return changes;
 }
 
 } // namespace talus::engine

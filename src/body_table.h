@@ -39,10 +39,14 @@ public:
     /// Slots of removed bodies may be used again from now on. Called once the step after their removal has begun: until
     /// then the last step's manifolds still speak of them.
     void recycle();
+    /// To be called once a step has begun: it uses up the loads that it was given.
+    void forget_loads();
 
+    /// Up to the last slot in use.
     uint slot_count() const { return static_cast<uint>(poses.size()); }
+    bool is_known(BodyId id) const { return id.index < next_generations.size(); }
     std::size_t body_count() const { return present_count; }
-    bool is_present(uint slot) const { return present[slot] != 0; }
+    bool is_present(uint slot) const { return uses[slot] == Use::Present; }
     BodyId id_of(uint slot) const { return {slot, generations[slot]}; }
     /// Also of a body that was removed, until its slot is used again.
     BodyId last_id_of(uint slot) const { return {slot, generations[slot]}; }
@@ -60,10 +64,13 @@ public:
     template <typename Table, typename Visit> static void visit_lists(Table& table, const Visit& visit);
 
     void mark(uint slot, std::uint8_t what);
-    /// The changed slots in ascending order, each with its Dirty bits; forgets them.
-    std::vector<std::pair<uint, std::uint8_t>> take_changes();
+    /// What has been marked, with the records as they are now; the table then counts as known to the device.
+    BodyChanges take_changes();
+    /// Whether the host has changed records of this kind that the device does not know yet.
+    bool is_dirty(uint slot, std::uint8_t what) const { return (dirty[slot] & what) != 0; }
+    /// The slots with changes that the device does not know yet, each once, in no order.
+    const std::vector<uint>& changed_slots() const { return changed; }
     Population population() const { return {slot_count(), bouncing_count > 0, kinematic_count > 0}; }
-    bool has_changes() const { return !changed.empty(); }
 
     // The device's records, one a slot.
     std::vector<BodyPose> poses;
@@ -78,11 +85,21 @@ public:
     uint kinematic_count = 0;
 
 private:
+    enum class Use : std::uint8_t { Free, Present, Resting };
+
+    uint take_slot();
+    void append_slot();
+    void drop_last_slot();
+
+    // Both also of slots that were dropped, so that old ids stay invalid.
     std::vector<std::uint32_t> generations;      // of the body that is or was last in the slot
     std::vector<std::uint32_t> next_generations; // of the next body; also of slots that a restored table lacks
-    std::vector<std::uint8_t> present;
+    std::vector<Use> uses;
     std::vector<std::uint8_t> dirty;
     std::vector<uint> changed;
+    std::vector<uint> loaded; // slots with a load for the next step
+    // A heap, lowest first, so that what a program gets does not depend on the order in which it removed. May also hold
+    // slots that were dropped, or taken, since.
     std::vector<uint> free_slots;
     std::vector<uint> resting_slots;
     std::size_t present_count = 0;
@@ -98,7 +115,7 @@ template <typename Table, typename Visit> void BodyTable::visit_lists(Table& tab
     visit(table.inertias);
     visit(table.generations);
     visit(table.next_generations);
-    visit(table.present);
+    visit(table.uses);
     visit(table.free_slots);
     visit(table.resting_slots);
 }

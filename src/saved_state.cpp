@@ -29,6 +29,8 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
             BufferId::OldContactStates, saved.contact_states.size() * sizeof(uint), saved.contact_states.data()}});
     }
     simulation.state_device().read(std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters}});
+    // The table may have given up slots since the last step.
+    saved.counters[k_counter_body_count] = std::min(saved.counters[k_counter_body_count], table.slot_count());
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
         const std::size_t first = 4 * i, end = first + contacts.manifolds[i].point_count;
         for (std::size_t k = first; k < end; ++k) {
@@ -75,6 +77,7 @@ void Simulation::restore(const SavedState& saved) {
         write_all(BufferId::OldContactStates, states);
     }
     reports.clear();
+    enqueued_slots = saved.counters[k_counter_body_count];
 
     finished_count = saved.report.step;
     newest_report = saved.report;

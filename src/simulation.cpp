@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "device/kernel_list.h"
 #include "finish/finish.h"
 #include "log.h"
 #include "parameters.h"
@@ -88,7 +89,8 @@ Simulation::Simulation(const WorldOptions& options) {
                                                     ? probes.front().why
                                                     : "OpenGL runs in software here (" + probes.front().name + ")");
     }
-    if (kind != DeviceKind::Cpu) gpu = make_gl_device(options.gl_context, options.profile, options.gl_debug);
+    if (kind != DeviceKind::Cpu)
+        gpu = make_gl_device(options.gl_context, options.profile, options.gl_debug, options.program_cache);
     if (kind != DeviceKind::Gpu) cpu = make_cpu_device(options.threads, options.profile);
     placement.detection = gpu ? gpu.get() : cpu.get();
     placement.resolution = cpu ? cpu.get() : gpu.get();
@@ -121,6 +123,10 @@ Simulation::~Simulation() = default;
 
 std::uint64_t Simulation::memory_bytes() const {
     return placement.detection->memory_bytes() + (placement.hybrid() ? placement.resolution->memory_bytes() : 0);
+}
+
+std::uint64_t Simulation::launch_count() const {
+    return placement.detection->launch_count() + (placement.hybrid() ? placement.resolution->launch_count() : 0);
 }
 
 void Simulation::grow_everywhere(BufferId buffer, std::size_t elements) {
@@ -191,11 +197,37 @@ void Simulation::set_settings(const Settings& wanted) {
     settings = wanted;
 }
 
-void Simulation::step(const Population& population, bool with_poses) {
+void Simulation::step(const Population& population, bool with_poses, BodyChanges changes) {
     poll();
     while (pending.size() >= k_most_pending)
         finish_oldest();
-    enqueue({0, population, with_poses});
+    transferred.to_device += bytes_of(changes);
+    enqueue({0, population, with_poses, std::move(changes)});
+}
+
+void Simulation::change_bodies(const Population& population, const BodyChanges& changes) {
+    settle();
+    transferred.to_device += bytes_of(changes);
+    apply_now(population, changes);
+}
+
+void Simulation::apply_now(const Population& population, const BodyChanges& changes) {
+    write_body_count(population.slots);
+    apply_changes(*placement.resolution, changes);
+    if (placement.hybrid()) apply_changes(*placement.detection, changes);
+}
+
+void Simulation::read_state(std::span<const ReadRequest> requests) {
+    settle();
+    for (const ReadRequest& request : requests)
+        transferred.to_host += request.bytes;
+    placement.resolution->read(requests);
+}
+
+void Simulation::write_body_count(uint slots) {
+    if (slots == enqueued_slots) return;
+    write_bytes(BufferId::Counters, k_counter_body_count * sizeof(uint), std::as_bytes(std::span(&slots, 1)));
+    enqueued_slots = slots;
 }
 
 StepPlan Simulation::plan_step(const Population& population) const {
@@ -222,15 +254,29 @@ StepPlan Simulation::plan_step(const Population& population) const {
     return now;
 }
 
-void Simulation::enqueue(const Pending& wanted) {
-    const StepPlan now = plan_step(wanted.population);
+void Simulation::prepare_kernels(const StepPlan& first) {
+    if (kernels_prepared || !gpu) return;
+    KernelList list(*gpu);
+    for (std::size_t i = 0; i < k_stage_count; ++i) {
+        const Stage stage{static_cast<int>(i)};
+        if (&placement.of(stage) == gpu.get()) run_stage(list, stage, first);
+    }
+    gpu->prepare(list.kernels);
+    kernels_prepared = true;
+}
+
+void Simulation::enqueue(Pending entry) {
+    const StepPlan now = plan_step(entry.population);
+    prepare_kernels(now);
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);
-    Pending entry = wanted;
-    entry.ticket = engine::step(placement, now, wanted.with_poses);
+    write_body_count(entry.population.slots);
+    const std::uint64_t launches_before = launch_count();
+    entry.ticket = engine::step(placement, now, entry.with_poses, entry.changes);
+    entry.launches = launch_count() - launches_before;
     entry.broad_phase = now.broad_phase;
-    pending.push_back(entry);
+    pending.push_back(std::move(entry));
 }
 
 void Simulation::poll() {
@@ -239,12 +285,13 @@ void Simulation::poll() {
 }
 
 void Simulation::settle() {
+    if (!pending.empty()) ++transferred.waits;
     while (!pending.empty())
         finish_oldest();
 }
 
 void Simulation::finish_oldest() {
-    const Pending done = pending.front();
+    const Pending& done = pending.front();
     Device& device = *placement.resolution;
     device.wait(done.ticket);
     const std::span<const uint> counters = device.counters(done.ticket);
@@ -253,10 +300,12 @@ void Simulation::finish_oldest() {
         redo(counters);
         return;
     }
-    pending.pop_front();
     ++finished_count;
     newest_ticket = done.ticket;
     newest_has_poses = done.with_poses;
+    newest_report.dispatches = static_cast<std::uint32_t>(done.launches);
+    newest_report.broad_phase = done.broad_phase;
+    pending.pop_front();
 
     StepReport& report = newest_report;
     report.step = finished_count;
@@ -272,18 +321,17 @@ void Simulation::finish_oldest() {
                                            report.step, counters[k_counter_frozen_bodies]));
     report.frozen_bodies = counters[k_counter_frozen_bodies];
     report.growths = growths;
-    report.broad_phase = done.broad_phase;
-    const std::span<const double> stage_ms = device.stage_ms(done.ticket);
+    const std::span<const double> stage_ms = device.stage_ms(newest_ticket);
     report.stage_ms.assign(stage_ms.begin(), stage_ms.end());
     if (placement.hybrid()) {
-        placement.detection->wait(done.ticket);
-        const std::span<const double> detection_ms = placement.detection->stage_ms(done.ticket);
+        placement.detection->wait(newest_ticket);
+        const std::span<const double> detection_ms = placement.detection->stage_ms(newest_ticket);
         for (std::size_t i = 0; i < detection_ms.size(); ++i)
             report.stage_ms[i] += detection_ms[i];
     }
     report.step_ms = std::accumulate(report.stage_ms.begin(), report.stage_ms.end(), 0.0);
     follow_demand(counters);
-    if (plan.watch != ContactWatch::None) collect_reports(done.ticket, counters);
+    if (plan.watch != ContactWatch::None) collect_reports(newest_ticket, counters);
     if (reasons != 0) redo(counters); // the steps behind it
 }
 
@@ -339,21 +387,27 @@ void Simulation::redo(std::span<const uint> counters) {
     newest_has_poses = false; // the ring goes on, and soon has no room for that frame
 
     // The steps behind it changed nothing either, but each has exchanged the manifolds with the old ones.
-    const std::deque<Pending> again = std::exchange(pending, {});
+    std::deque<Pending> again = std::exchange(pending, {});
     Device& device = *placement.resolution;
     if (!again.empty()) device.wait(again.back().ticket);
     if (again.size() % 2 == 1) swap_manifolds(device);
     constexpr uint fits = 0;
-    device.write(BufferId::Counters, k_counter_did_not_fit * sizeof(uint), std::as_bytes(std::span(&fits, 1)));
-    // Where there is no room, the error leaves the world as it was before these steps.
-    if ((reasons & k_fit_search) != 0)
-        throw Error(
-            "a body has so many others around it that this renderer, which ends long loops, does not search the "
-            "tree of the broad phase to the end; the device Cpu does");
-    if ((reasons & k_fit_pairs) != 0) make_room_for_pairs(pair_demand);
-    if ((reasons & k_fit_hubs) != 0) reserve_hub_manifolds(with_headroom(hub_manifolds));
-    for (const Pending& entry : again)
-        enqueue(entry);
+    write_bytes(BufferId::Counters, k_counter_did_not_fit * sizeof(uint), std::as_bytes(std::span(&fits, 1)));
+    try {
+        if ((reasons & k_fit_search) != 0)
+            throw Error(
+                "a body has so many others around it that this renderer, which ends long loops, does not search the "
+                "tree of the broad phase to the end; the device Cpu does");
+        if ((reasons & k_fit_pairs) != 0) make_room_for_pairs(pair_demand);
+        if ((reasons & k_fit_hubs) != 0) reserve_hub_manifolds(with_headroom(hub_manifolds));
+    } catch (const Error&) {
+        // The world is left as it was before these steps, but for what the caller has changed.
+        for (const Pending& entry : again)
+            apply_now(entry.population, entry.changes);
+        throw;
+    }
+    for (Pending& entry : again)
+        enqueue(std::move(entry));
 }
 
 std::span<const BodyPose> Simulation::newest_poses() const {

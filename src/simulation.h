@@ -43,7 +43,10 @@ public:
     /// Which contact reports steps make from now on. Waits for the steps on their way.
     void watch_contacts(ContactWatch);
     /// Enqueues a step; waits for the oldest one if too many are on their way.
-    void step(const Population&, bool with_poses);
+    /// `changes` act before it, whatever is on its way. Needs reserve_bodies() for all slots before.
+    void step(const Population&, bool with_poses, BodyChanges changes = {});
+    /// Without a step, once those on their way are done.
+    void change_bodies(const Population&, const BodyChanges&);
     /// Waits until every step is done, and has fitted.
     void settle();
 
@@ -53,6 +56,10 @@ public:
     /// Whose buffers hold the state, and whose the pairs. Call settle() first.
     Device& state_device() const { return *placement.resolution; }
     Device& detection_device() const { return *placement.detection; }
+    /// Waits for the steps on their way, and reads from the state's device.
+    void read_state(std::span<const ReadRequest>);
+    /// Of body records, so far.
+    const Transfers& transfers() const { return transferred; }
 
     std::uint64_t step_count() const { return finished_count + pending.size(); }
     /// Of the newest finished step.
@@ -75,11 +82,19 @@ private:
         Ticket ticket;
         Population population;
         bool with_poses;
+        BodyChanges changes;
         BroadPhase broad_phase = BroadPhase::Auto; // that the step used
+        std::uint64_t launches = 0;
     };
 
+    std::uint64_t launch_count() const;
     void write_bytes(BufferId, std::size_t offset, std::span<const std::byte>);
-    void enqueue(const Pending&);
+    void enqueue(Pending);
+    /// With nothing on its way.
+    void apply_now(const Population&, const BodyChanges&);
+    void write_body_count(uint slots);
+    /// Before the first step: the GPU's driver may compile all of its kernels side by side.
+    void prepare_kernels(const StepPlan&);
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
@@ -96,6 +111,9 @@ private:
     Settings settings;
     StepPlan plan;
     uint body_capacity = 0;
+    uint enqueued_slots = 0; ///< body slots of the newest step
+    bool kernels_prepared = false;
+    Transfers transferred;
 
     std::deque<Pending> pending;
     std::uint64_t finished_count = 0;

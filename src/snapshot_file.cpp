@@ -34,7 +34,7 @@ constexpr int k_compression_level = 3;
 static_assert(std::endian::native == std::endian::little, "records are written as they lie in memory");
 // A member more has to be written, or to follow from others, and k_version to be raised.
 static_assert(sizeof(Settings) == 72);
-static_assert(sizeof(BodyTable) == 14 * sizeof(std::vector<int>) + 2 * sizeof(uint) + sizeof(std::size_t));
+static_assert(sizeof(BodyTable) == 15 * sizeof(std::vector<int>) + 2 * sizeof(uint) + sizeof(std::size_t));
 
 class Writer {
 public:

@@ -32,8 +32,12 @@ void run_stage(Device& device, Stage stage, const StepPlan& plan) {
     }
 }
 
-Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses) {
-    if (placement.hybrid()) hand_over_bodies(*placement.resolution, *placement.detection, plan);
+Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses, const BodyChanges& changes) {
+    apply_changes(*placement.resolution, changes);
+    if (placement.hybrid()) {
+        hand_over_bodies(*placement.resolution, *placement.detection, plan);
+        apply_changes(*placement.detection, changes);
+    }
     for (std::size_t i = 0; i < k_stage_count; ++i) {
         const Stage stage{static_cast<int>(i)};
         if (placement.hybrid() && stage == Stage::ConstraintGraph) {

@@ -2,6 +2,7 @@
 // One step of the world.
 #pragma once
 
+#include "body_changes.h"
 #include "device/device.h"
 
 namespace talus::engine {
@@ -50,7 +51,7 @@ struct Placement {
 
 void run_stage(Device&, Stage, const StepPlan&);
 
-/// Enqueues a step; see Device::end_step. On a hybrid placement it waits for the detection.
-Ticket step(const Placement&, const StepPlan&, bool with_poses);
+/// Enqueues the changes and a step behind them; see Device::end_step. On a hybrid placement it waits for the detection.
+Ticket step(const Placement&, const StepPlan&, bool with_poses, const BodyChanges& changes = {});
 
 } // namespace talus::engine

@@ -37,7 +37,7 @@ struct World::Impl {
     /// The slot of a body that is there; otherwise an Error that begins with the call's name.
     uint slot_of(BodyId id, const char* call) const {
         if (table.contains(id)) return id.index;
-        const bool known = id.index < table.slot_count();
+        const bool known = table.is_known(id);
         throw Error(fmt::format("{}: body {} (generation {}) {}", call, id.index, id.generation,
                                 known ? "was removed"
                                       : fmt::format("is not known; the world has {} bodies", table.body_count())));
@@ -52,79 +52,62 @@ struct World::Impl {
         return slot;
     }
 
-    /// The table's poses and velocities are those of the newest step.
+    /// The table's poses and velocities are those of the newest step, but for what the caller has changed since.
     void refresh() {
         if (table_step == simulation.step_count()) return;
         const CallersContext callers(own_context);
-        simulation.settle();
-        const uint count = device_slots;
-        const std::array requests{
+        std::vector<std::pair<uint, BodyPose>> poses;
+        std::vector<std::pair<uint, BodyVelocity>> velocities;
+        for (const uint slot : table.changed_slots()) {
+            if (table.is_dirty(slot, k_dirty_pose)) poses.emplace_back(slot, table.poses[slot]);
+            if (table.is_dirty(slot, k_dirty_velocity)) velocities.emplace_back(slot, table.velocities[slot]);
+        }
+        const std::size_t count = std::min(device_slots, table.slot_count());
+        simulation.read_state(std::array{
             ReadRequest{BufferId::Poses, count * sizeof(BodyPose), table.poses.data()},
             ReadRequest{BufferId::Velocities, count * sizeof(BodyVelocity), table.velocities.data()},
-        };
-        simulation.state_device().read(requests);
-        // A step uses the loads up.
-        std::fill_n(table.loads.begin(), count, BodyLoad{});
+        });
+        for (const auto& [slot, pose] : poses)
+            table.poses[slot] = pose;
+        for (const auto& [slot, velocity] : velocities)
+            table.velocities[slot] = velocity;
         table_step = simulation.step_count();
     }
 
-    /// Makes events of what the finished steps have reported. To be called before bodies come or go: who is in which
-    /// slot is known as long as that does not change.
+    /// Makes events of what the finished steps have reported.
     void collect_events() {
         for (Simulation::StepReports& reports : simulation.take_reports())
             append_events(events, reports, table);
     }
 
-    /// For changing a body: its records are fresh and its change will reach the device.
-    void touch(uint slot, std::uint8_t what) {
-        refresh();
-        table.mark(slot, what);
+    /// Before bodies come: who was in which slot is known as long as it is not used again.
+    void finish_events() {
+        const CallersContext callers(own_context);
+        if (simulation.watches_contacts()) simulation.settle();
+        collect_events();
     }
 
     /// For giving a body a velocity: one that was frozen moves again.
     void thaw(uint slot) {
-        touch(slot, k_dirty_pose | k_dirty_velocity);
+        refresh();
+        table.mark(slot, k_dirty_pose | k_dirty_velocity);
         table.poses[slot].flags &= ~k_body_frozen;
         table.velocities[slot].inverse_mass = table.properties[slot].inverse_mass;
     }
 
-    void upload_changes() {
-        if (!table.has_changes()) return;
-        simulation.settle();
+    /// The device gets room for all bodies, before anything that it then could not take back.
+    BodyChanges take_changes() {
         simulation.reserve_bodies(table.slot_count());
-        const auto changes = table.take_changes();
-        upload(changes, k_dirty_pose, BufferId::Poses, table.poses);
-        upload(changes, k_dirty_velocity, BufferId::Velocities, table.velocities);
-        upload(changes, k_dirty_shape, BufferId::Shapes, table.shapes);
-        upload(changes, k_dirty_properties, BufferId::Properties, table.properties);
-        upload(changes, k_dirty_load, BufferId::Loads, table.loads);
-        if (table.slot_count() != device_slots) {
-            device_slots = table.slot_count();
-            simulation.write(BufferId::Counters, k_counter_body_count, std::span<const uint>(&device_slots, 1));
-        }
-    }
-
-    /// Writes each run of neighbouring changed slots at once.
-    template <typename T> void upload(const std::vector<std::pair<uint, std::uint8_t>>& changes, std::uint8_t what,
-                                      BufferId buffer, const std::vector<T>& records) {
-        for (std::size_t i = 0; i < changes.size();) {
-            if ((changes[i].second & what) == 0) {
-                ++i;
-                continue;
-            }
-            const uint first = changes[i].first;
-            uint end = first;
-            for (; i < changes.size() && changes[i].first == end && (changes[i].second & what) != 0; ++i)
-                ++end;
-            simulation.write(buffer, first, std::span(records).subspan(first, end - first));
-        }
+        device_slots = table.slot_count();
+        return table.take_changes();
     }
 
     void step(std::uint32_t count) {
         const CallersContext callers(own_context);
         for (std::uint32_t i = 0; i < count; ++i) {
-            upload_changes();
-            simulation.step(table.population(), poses_wanted);
+            BodyChanges changes = take_changes();
+            simulation.step(table.population(), poses_wanted, std::move(changes));
+            table.forget_loads();
             table.recycle();
         }
     }
@@ -156,7 +139,7 @@ struct World::Impl {
     Settings settings;
     BodyTable table;
     std::uint64_t table_step = 0; ///< the step whose poses and velocities the table holds
-    uint device_slots = 0;        ///< body slots that the device knows of
+    uint device_slots = 0;        ///< body slots that the newest step knows of
     bool poses_wanted = false;
     std::vector<ContactEvent> events;        ///< that the caller has not taken yet
     std::vector<std::uint64_t> steps_before; ///< steps made before each slot's body was added
@@ -194,8 +177,7 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
     for (std::size_t i = 0; i < definitions.size(); ++i)
         all.push_back(checked_definition(definitions[i],
                                          definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
-    impl_->refresh();
-    impl_->collect_events();
+    impl_->finish_events();
     std::vector<BodyId> ids;
     ids.reserve(all.size());
     for (const BodyDefinition& definition : all) {
@@ -208,8 +190,6 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
 
 void World::remove(BodyId id) {
     impl_->slot_of(id, "remove");
-    impl_->refresh();
-    impl_->collect_events();
     impl_->table.remove(id);
 }
 
@@ -280,13 +260,14 @@ std::vector<Velocity> World::velocities() const {
 void World::add_force(BodyId id, Vec3 force) {
     const uint slot = impl_->rigid_slot_of(id, "add_force");
     check_finite(force, name_of("add_force", id), "force");
-    impl_->touch(slot, k_dirty_load);
+    impl_->table.mark(slot, k_dirty_load);
     impl_->table.loads[slot].force += to_glm(force);
 }
 
 void World::add_force(BodyId id, Vec3 force, Vec3 point) {
     check_finite(point, name_of("add_force", id), "point");
     add_force(id, force);
+    impl_->refresh();
     const uint slot = id.index;
     impl_->table.loads[slot].torque += cross3(to_glm(point) - impl_->table.poses[slot].position, to_glm(force));
 }
@@ -294,7 +275,7 @@ void World::add_force(BodyId id, Vec3 force, Vec3 point) {
 void World::add_torque(BodyId id, Vec3 torque) {
     const uint slot = impl_->rigid_slot_of(id, "add_torque");
     check_finite(torque, name_of("add_torque", id), "torque");
-    impl_->touch(slot, k_dirty_load);
+    impl_->table.mark(slot, k_dirty_load);
     impl_->table.loads[slot].torque += to_glm(torque);
 }
 
@@ -336,7 +317,7 @@ float World::gravity_scale(BodyId id) const {
 void World::set_gravity_scale(BodyId id, float scale) {
     const uint slot = impl_->slot_of(id, "set_gravity_scale");
     check_finite(scale, name_of("set_gravity_scale", id), "gravity scale");
-    impl_->touch(slot, k_dirty_properties);
+    impl_->table.mark(slot, k_dirty_properties);
     impl_->table.properties[slot].gravity_scale = scale;
 }
 
@@ -347,7 +328,7 @@ Material World::material(BodyId id) const {
 void World::set_material(BodyId id, const Material& material) {
     const uint slot = impl_->slot_of(id, "set_material");
     check_material(material, name_of("set_material", id));
-    impl_->touch(slot, k_dirty_properties);
+    impl_->table.mark(slot, k_dirty_properties);
     BodyTable& table = impl_->table;
     BodyProperties& properties = table.properties[slot];
     table.bouncing_count += (material.restitution > 0.0f) - (properties.restitution > 0.0f);
@@ -362,7 +343,7 @@ bool World::is_sensor(BodyId id) const {
 
 void World::set_sensor(BodyId id, bool wanted) {
     const uint slot = impl_->slot_of(id, "set_sensor");
-    impl_->touch(slot, k_dirty_shape);
+    impl_->table.mark(slot, k_dirty_shape);
     impl_->table.set_sensor(slot, wanted);
 }
 
@@ -506,6 +487,10 @@ void World::set_settings(const Settings& settings) {
     impl_->set_settings(settings);
 }
 
+Transfers World::transfers() const noexcept {
+    return impl_->simulation.transfers();
+}
+
 const DeviceInfo& World::device() const noexcept {
     return impl_->simulation.device();
 }
@@ -522,8 +507,8 @@ GlBuffers World::gl_buffers() const {
     if (device.gl_name(BufferId::Poses) == 0)
         throw Error("gl_buffers: the world runs on the CPU, which has no OpenGL buffers");
     const CallersContext callers(impl_->own_context);
-    impl_->upload_changes();
-    impl_->simulation.settle();
+    const BodyChanges changes = impl_->take_changes();
+    impl_->simulation.change_bodies(impl_->table.population(), changes);
     if (impl_->simulation.state_device().gl_name(BufferId::Poses) == 0) { // hybrid: the newest poses are the CPU's
         impl_->refresh();
         device.write(BufferId::Poses, 0, std::as_bytes(std::span(impl_->table.poses)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The benchmark: what `talus bench` prints and writes, how it compares with an earlier run, and that the other engine
 // plays the scene that it is given.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <memory>
@@ -100,6 +101,42 @@ TEST_F(Bench, repeats_end_in_the_same_state) {
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_EQ(lines[0]["state_hash"], lines[1]["state_hash"]);
     EXPECT_EQ(lines[0]["state_hash"], lines[2]["state_hash"]);
+}
+
+TEST_F(Bench, measures_cost_over_size) {
+    const Ending ending = bench("--size-curves sizes.csv --sizes 5,60 --steps 4 grid pile");
+    ASSERT_EQ(ending.status, 0) << ending.errors;
+    std::istringstream csv(text_of(folder / "sizes.csv"));
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_TRUE(line.starts_with("family,scene,device,device_name,threads,boxes,")) << line;
+    EXPECT_TRUE(line.ends_with(",finish_ms")) << line;
+    const auto fields = std::ranges::count(line, ',');
+    for (const char* head : {"grid,\"grid:stacks=1\",cpu,", "grid,\"grid:stacks=12\",cpu,",
+                             "pile,\"pile:boxes=5,seed=1\","
+                             "cpu,",
+                             "pile,\"pile:boxes=60,seed=1\",cpu,"}) {
+        ASSERT_TRUE(std::getline(csv, line));
+        std::string plain = line;
+        EXPECT_TRUE(plain.starts_with(head)) << plain;
+        EXPECT_GE(std::ranges::count(plain, ','), fields);
+    }
+    EXPECT_FALSE(std::getline(csv, line));
+
+    const Ending refused = bench("--size-curves sizes.csv wall");
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(contains(refused.errors, "'wall' is not one of grid, pile")) << refused.errors;
+}
+
+TEST_F(Bench, replaces_bodies_before_each_step) {
+    const Ending calm = bench("stack:height=3 --steps 40 --json"),
+                 churned = bench("stack:height=3 --steps 40 --churn 3 --json");
+    ASSERT_EQ(churned.status, 0) << churned.errors;
+    const json moved = json::parse(calm.output), put_back = json::parse(churned.output);
+    EXPECT_EQ(put_back["bodies"], moved["bodies"]);
+    EXPECT_EQ(put_back["contacts"], moved["contacts"]);
+    EXPECT_NE(put_back["state_hash"], moved["state_hash"]); // each box has had a single step since it was put there
+    EXPECT_LT(put_back["quality"]["max_drift"], 1e-3);
 }
 
 TEST_F(Bench, compares_with_an_earlier_run) {

@@ -194,6 +194,19 @@ TEST_P(ContactEvents, arrive_without_waiting) {
         EXPECT_EQ(events[i].step, i + 1);
 }
 
+TEST_P(ContactEvents, name_bodies_whose_slots_are_given_up) {
+    World world = make_world();
+    const BodyId floor = world.add(ground()), box = world.add(box_at({0.0f, 0.5f, 0.0f}));
+    world.watch_contacts(ContactWatch::Changes);
+    world.step(3);
+    world.remove(box); // the last one
+    world.step(3);
+    const std::vector<ContactEvent> events = world.take_contact_events();
+    ASSERT_EQ(words_of(events), (std::vector<std::string>{"1: begin 0 1", "4: end 0 1"}));
+    EXPECT_EQ(events[1].a, floor);
+    EXPECT_EQ(events[1].b, box);
+}
+
 TEST_P(ContactEvents, end_where_a_body_is_removed_and_name_it) {
     World world = make_world();
     const BodyId floor = world.add(ground()), box = world.add(box_at({0.0f, 0.5f, 0.0f}));

@@ -140,7 +140,8 @@ TEST_P(GlKernels, are_not_made_from_a_folder_that_is_not_there) {
 TEST_P(GlKernels, compile_and_use_no_more_buffers_than_every_driver_has) {
     for (const std::string& path : kernel_paths()) {
         try {
-            const GlProgram program(path);
+            GlProgram program(path, ProgramCache(false));
+            program.finish(ProgramCache(false));
             EXPECT_LE(program.blocks().size(), k_max_storage_blocks) << path;
             GLint size[3]{};
             glGetProgramiv(program.name(), GL_COMPUTE_WORK_GROUP_SIZE, size);

@@ -147,5 +147,21 @@ TEST(scenes_run, boxes_on_a_slope_slide_above_the_angle_of_friction) {
     }
 }
 
+TEST(Worlds, of_one_scene_never_meet) {
+    constexpr std::uint32_t k_boxes = 20;
+    World world({}, tests::options_on(DeviceKind::Cpu));
+    const std::vector<BodyDefinition> bodies = tests::bodies_of("worlds:count=9,boxes=20");
+    world.add(bodies);
+    world.step(60);
+    const std::uint32_t first = static_cast<std::uint32_t>(bodies.size()) - 9 * k_boxes; // behind the ground
+    std::size_t inside = 0;
+    for (const CollisionPair& pair : world.collision_pairs()) {
+        if (pair.a.index < first || pair.b.index < first) continue;
+        ++inside;
+        EXPECT_EQ((pair.a.index - first) / k_boxes, (pair.b.index - first) / k_boxes);
+    }
+    EXPECT_GT(inside, 9u);
+}
+
 } // namespace
 } // namespace talus::scenes

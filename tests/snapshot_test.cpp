@@ -228,6 +228,27 @@ protected:
     const std::filesystem::path file = folder / "a.snapshot";
 };
 
+TEST_F(SnapshotFile, brings_a_world_back_that_has_given_up_slots) {
+    World world({}, options_on(DeviceKind::Cpu));
+    const std::vector<BodyId> ids = fill(world, "pool:boxes=40");
+    world.step(60);
+    for (const std::size_t last : {ids.size() - 1, ids.size() - 2, std::size_t{20}, std::size_t{10}})
+        world.remove(ids[last]);
+    world.step(2);
+    world.snapshot().save(file);
+    World other({}, options_on(DeviceKind::Cpu));
+    other.restore(Snapshot::load(file));
+    EXPECT_EQ(results_of(other), results_of(world));
+    EXPECT_FALSE(other.contains(ids.back()));
+    for (const std::size_t slot : {std::size_t{10}, std::size_t{20}, ids.size() - 2, ids.size() - 1}) {
+        const BodyId id = world.add(ball_above());
+        EXPECT_EQ(id.index, slot);
+        EXPECT_EQ(id.generation, 1u);
+        EXPECT_EQ(other.add(ball_above()), id);
+    }
+    EXPECT_EQ(hashes_of_steps(other, 3), hashes_of_steps(world, 3));
+}
+
 TEST_F(SnapshotFile, brings_a_world_back) {
     World world({}, options_on(DeviceKind::Cpu));
     const std::vector<BodyId> ids = fill(world, "pool:boxes=40");

@@ -91,6 +91,9 @@ struct WorldOptions {
     /// from. The environment variable TALUS_GL_DEBUG=1 asks for it too. In the caller's context they go where the
     /// caller sends them; the stages are debug groups there.
     bool gl_debug = false;
+    /// Keep the kernels' compiled programs in the user's cache folder ($XDG_CACHE_HOME or ~/.cache, talus/), so that
+    /// later worlds start at once. The environment variable TALUS_PROGRAM_CACHE=0 turns it off too.
+    bool program_cache = true;
     Capacities capacities; ///< how large buffers are at first
 };
 

@@ -25,6 +25,7 @@ struct StepReport {
     std::uint32_t hubs = 0;          ///< bodies with so many contacts that each is solved with a share of their mass
     std::uint32_t frozen_bodies = 0; ///< bodies whose velocity became non-finite, in all steps so far
     std::uint32_t growths = 0;       ///< steps done again with larger buffers or more launches, so far
+    std::uint32_t dispatches = 0;    ///< launches of kernels that the host gave
     BroadPhase broad_phase = BroadPhase::Auto; ///< what found the pairs; Auto before the first step
     double step_ms = 0.0;         ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
     std::vector<double> stage_ms; ///< one a stage, in the order of stage_names(); empty unless profiled
@@ -44,6 +45,14 @@ struct DeviceInfo {
 struct MemoryUse {
     std::uint64_t device = 0; ///< in the buffers of the device or devices
     std::uint64_t host = 0;   ///< in the table of bodies
+};
+
+/// What has gone between host and device for the bodies' records, in all so far. Adding, removing and changing bodies
+/// costs bytes for what changes; reading a pose or a velocity after a step reads those of all bodies.
+struct Transfers {
+    std::uint64_t to_device = 0; ///< bytes
+    std::uint64_t to_host = 0;   ///< bytes; without the poses that keep_poses_coming() asks for
+    std::uint64_t waits = 0;     ///< calls that had to wait for steps on their way
 };
 
 /// OpenGL names of the buffers to draw from, without a copy. Valid until the next call that changes the world. Numbers
@@ -67,8 +76,10 @@ struct GlBuffers {
 /// A world of bodies. Calls may come from several threads, one at a time: whoever lets two of them overlap has to lock.
 /// (A world in the caller's own OpenGL context stays with the thread that has the context.)
 ///
-/// `step` on a GPU returns before the GPU has finished; several steps may be on their way. Calls that read results, and
-/// calls that change the world, wait for them first.
+/// `step` on a GPU returns before the GPU has finished; several steps may be on their way. Adding and removing bodies
+/// and changing a material, a gravity scale or a force waits for none of them. (Adding does where contacts are
+/// watched.) Calls that read results wait first, and so do those that change a pose or a velocity, which start from
+/// what it is.
 class TALUS_API World {
 public:
     /// Throws Error where the device cannot be had; the message lists what was tried.
@@ -207,6 +218,8 @@ public:
     const DeviceInfo& device() const noexcept;
     /// Grows with the number of bodies and pairs.
     MemoryUse memory() const noexcept;
+    /// What changes of bodies, and reading them, have cost so far.
+    Transfers transfers() const noexcept;
     /// The names are good until the next call that changes the world or makes a step. Waits for the last step.
     /// Throws Error on the CPU device, which has none.
     GlBuffers gl_buffers() const;

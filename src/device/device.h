@@ -103,7 +103,11 @@ public:
     virtual void swap(BufferId, BufferId) = 0;
     virtual void set_parameters(const Parameters&) = 0;
 
+    /// Makes kernels that will be launched soon ready, side by side where the device can. Waits for none of them.
+    virtual void prepare(std::span<const Kernel* const>) {}
     virtual void run(const Launch&) = 0;
+    /// How many launches it has been given, but for those without items.
+    std::uint64_t launch_count() const { return launches; }
 
     /// Marks the start of a stage for profilers and debuggers; the one before it ends.
     virtual void begin_stage(Stage) = 0;
@@ -124,11 +128,14 @@ public:
     /// For drawing without a copy; 0 on a device without OpenGL.
     virtual std::uint32_t gl_name(BufferId) const { return 0; }
     virtual void make_current() {}
+
+protected:
+    std::uint64_t launches = 0;
 };
 
 /// Both throw talus::Error.
 std::unique_ptr<Device> make_cpu_device(std::uint32_t threads, bool profile);
-std::unique_ptr<Device> make_gl_device(GlContext, bool profile, bool debug = false);
+std::unique_ptr<Device> make_gl_device(GlContext, bool profile, bool debug = false, bool program_cache = true);
 
 /// The GPUs that there are: first the one that make_gl_device(GlContext::Own) would take, last those that cannot be
 /// used, with an empty name and the reason in `why`.

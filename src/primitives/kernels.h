@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kernels of the scan and the sort. Callers want primitives.h.
+// The kernels of the scan, the sort and the scattering of records. Callers want primitives.h.
 #pragma once
 
 #include "device/device.h"
@@ -15,6 +15,7 @@ extern const Kernel count_digits;
 extern const Kernel scatter_keys;
 extern const Kernel sort_in_group;
 extern const Kernel search_keys;
+extern const Kernel scatter_records;
 
 /// Tiles that make a loop of a twin worth a second thread.
 inline constexpr uint k_parallel_tiles = 16;

@@ -14,6 +14,8 @@ static_assert(k_sort_group == k_digits && k_sort_group == 32 * k_mask_words && k
 // Up to here one group is done before three dependent dispatches would be.
 constexpr uint k_longest_group_scan = 4 * k_scan_tile;
 
+constexpr std::size_t k_cell_bytes = 16; // records are rows of cells
+
 void reserve_words(Device& device, BufferId buffer, std::size_t words) {
     if (device.size(buffer) < words * sizeof(uint)) device.grow(buffer, words * sizeof(uint));
 }
@@ -84,6 +86,12 @@ void find_key_offsets(Device& device, BufferId keys, BufferId offsets, uint coun
                 .items = k_digits + 1,
                 .args = {count_counter},
                 .bindings = {{"Keys", keys}, {"Offsets", offsets}}});
+}
+
+void scatter_changed_records(Device& device, BufferId target, uint count) {
+    const uint cells = static_cast<uint>(k_buffers[static_cast<std::size_t>(target)].stride / k_cell_bytes);
+    device.run(
+        {.kernel = scatter_records, .items = count * cells, .args = {count, cells}, .bindings = {{"Target", target}}});
 }
 
 } // namespace talus::engine

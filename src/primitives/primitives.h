@@ -38,4 +38,8 @@ void sort_by_key(Device&, const Sort&);
 /// all as word 256.
 void find_key_offsets(Device&, BufferId keys, BufferId offsets, uint count_counter);
 
+/// Puts the first `count` records of Changes (see the kernel scatter_records) to their places in a buffer of records,
+/// or nothing after a step that did not fit.
+void scatter_changed_records(Device&, BufferId target, uint count);
+
 } // namespace talus::engine

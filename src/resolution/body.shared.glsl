@@ -47,9 +47,9 @@ inline vec3 limit_length(vec3 v, float limit)
 {
     float square = dot3(v, v);
     precise float square_limit = limit * limit;
-    if (!(square > square_limit)) return v;
+    if (!any_lane(square > square_limit)) return v;
     precise float scale = limit * inverse_sqrt(square);
-    return scale3(v, scale);
+    return choose_active(square > square_limit, scale3(v, scale), v);
 }
 
 // Angular velocity after h under no torque, in body axes: Euler's equation I w' = -w x I w by the implicit midpoint
@@ -59,7 +59,7 @@ inline vec3 turn_freely(vec3 w, vec3 inverse_inertia, float h)
 {
     vec3 inertia = vec3(reciprocal(inverse_inertia.x), reciprocal(inverse_inertia.y), reciprocal(inverse_inertia.z));
     vec3 middle = w;
-    for (uint i = 0u; i < 4u; i += 1u) {
+    for (uint i = 0u; any_lane(i < 4u); i += 1u) {
         vec3 torque = cross3(multiply3(inertia, middle), middle);
         precise vec3 change = multiply3(inverse_inertia, torque) * (0.5f * h);
         precise vec3 next = w + change;
@@ -121,7 +121,7 @@ inline BodyWarmStart take_hit(BodyWarmStart warm, BodyVelocity before, BodyVeloc
 inline float damping_factor(float damping, float h)
 {
     precise float factor = reciprocal(1.0f + h * damping);
-    return damping > 0.0f ? factor : 1.0f;
+    return choose(damping > 0.0f, factor, 1.0f);
 }
 
 // Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits; then
@@ -130,7 +130,7 @@ inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm
                                        BodyInertia inertia, BodyLoad load, bool rigid, float h, Parameters p)
 {
     precise vec3 linear = velocity.linear + (p.gravity * body.gravity_scale + load.force * velocity.inverse_mass) * h;
-    if (!rigid) { // a kinematic body: gravity if its caller asked for it, nothing else
+    if (!any_lane(rigid)) { // a kinematic body: gravity if its caller asked for it, nothing else
         velocity.linear = linear;
         return velocity;
     }
@@ -139,19 +139,19 @@ inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm
     float angular_factor = damping_factor(body.angular_damping, h);
     angular = limit_length(angular, p.max_angular_speed);
     vec3 d = body.inverse_inertia;
-    if (d.x != d.y || d.y != d.z) {
+    if (any_lane(d.x != d.y || d.y != d.z)) {
         vec3 local = rotate_back(rotation, angular);
         precise float turn = 4.0f * length3(local) * h; // in quarters of a radian
-        uint parts = uint(min(turn, 255.0f)) + 1u;
+        uint parts = choose_active(d.x != d.y || d.y != d.z, uint(min(turn, 255.0f)) + 1u, 1u);
         precise float part = h * reciprocal(float(parts));
-        for (uint i = 0u; i < parts; i += 1u)
-            local = turn_freely(local, d, part);
-        angular = rotate(rotation, local);
+        for (uint i = 0u; any_lane(i < parts); i += 1u)
+            local = choose_active(i < parts, turn_freely(local, d, part), local);
+        angular = choose_active(d.x != d.y || d.y != d.z, rotate(rotation, local), angular);
     }
     precise vec3 started_linear = limit_length(scale3(linear, linear_factor), p.max_linear_speed) + warm.linear;
     precise vec3 started_angular = limit_length(scale3(angular, angular_factor), p.max_angular_speed) + warm.angular;
-    velocity.linear = started_linear;
-    velocity.angular = started_angular;
+    velocity.linear = choose_active(rigid, started_linear, linear);
+    velocity.angular = choose_active(rigid, started_angular, velocity.angular);
     return velocity;
 }
 

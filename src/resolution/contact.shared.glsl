@@ -32,8 +32,8 @@ inline vec4 current_separations(ManifoldRows rows, vec4 base, uint traits, BodyD
 {
     Meeting m = rows.meeting;
     vec3 n = m.frame.z;
-    vec3 normal_a = (traits & k_trait_round) != 0u ? n : rotate_back(a.rotation, n);
-    vec3 normal_b = (traits & (k_trait_round << k_traits_of_b)) != 0u ? n : rotate_back(b.rotation, n);
+    vec3 normal_a = choose((traits & k_trait_round) != 0u, n, rotate_back(a.rotation, n));
+    vec3 normal_b = choose((traits & (k_trait_round << k_traits_of_b)) != 0u, n, rotate_back(b.rotation, n));
     precise vec3 moved = b.position - a.position;
     precise vec3 turned = normal_b - normal_a;
     precise float distance = dot3(moved, n) + (dot3(m.centre_b, normal_b) - dot3(m.centre_a, normal_a));
@@ -72,9 +72,9 @@ inline float slip_share(vec3 apart, float share_a, float share_b, Meeting m)
     precise float yielding = share_a * share_a * largest_diagonal(m.inertia_a) +
                              share_b * share_b * largest_diagonal(m.inertia_b);
     precise float growth = yielding * dot3(apart, apart);
-    if (growth <= m.inverse_masses) return 1.0f;
+    if (all_lanes(growth <= m.inverse_masses)) return 1.0f;
     precise float square = m.inverse_masses * reciprocal(growth);
-    return square_root(square);
+    return choose_active(!(growth <= m.inverse_masses), square_root(square), 1.0f);
 }
 
 // `gap` and `traits`: the constraint's.
@@ -84,8 +84,8 @@ inline Slip measure_slip(Meeting m, vec3 gap, uint traits, BodyDelta a, BodyDelt
     bool pushes_a = (traits & k_trait_movable) != 0u;
     bool pushes_b = (traits & (k_trait_movable << k_traits_of_b)) != 0u;
     Slip slip;
-    slip.share_a = pushes_a ? (pushes_b ? 0.5f : 0.0f) : 1.0f;
-    slip.share_b = pushes_b ? (pushes_a ? 0.5f : 0.0f) : 1.0f;
+    slip.share_a = choose(pushes_a, choose(pushes_b, 0.5f, 0.0f), 1.0f);
+    slip.share_b = choose(pushes_b, choose(pushes_a, 0.5f, 0.0f), 1.0f);
     slip.apart = scale3(apart, slip_share(apart, slip.share_a, slip.share_b, m));
     return slip;
 }
@@ -138,9 +138,9 @@ inline vec2 point_target(float separation, float normal_mass, float impulse, boo
     bool biased = separation <= 0.0f && use_bias;
     float gap = closing_speed(separation, inv_h);
     precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -p.contact_push_speed);
-    float bias = separation > 0.0f ? gap : (use_bias ? push : 0.0f);
-    precise float mass = normal_mass * (biased ? soft.mass_scale : 1.0f);
-    precise float offset = (impulse - (biased ? soft.impulse_scale : 0.0f) * impulse) - mass * bias;
+    float bias = choose(separation > 0.0f, gap, choose(use_bias, push, 0.0f));
+    precise float mass = normal_mass * choose(biased, soft.mass_scale, 1.0f);
+    precise float offset = (impulse - choose(biased, soft.impulse_scale, 0.0f) * impulse) - mass * bias;
     return vec2(mass, offset);
 }
 
@@ -158,7 +158,7 @@ inline float hit_speed(float separation, float normal_mass, float restitution, f
 {
     float closing = max(closing_speed(separation, inv_h), closing_speed(-0.5f * separation, inv_h));
     float speed = max(closing, p.restitution_threshold);
-    return normal_mass > 0.0f && restitution > 0.0f ? speed : k_never;
+    return choose(normal_mass > 0.0f && restitution > 0.0f, speed, k_never);
 }
 
 inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 impulse, bool use_bias,
@@ -189,7 +189,7 @@ inline float least_of_point(float first_separation, float impulse, float total, 
 {
     precise float push = -soft.bias_rate * first_separation;
     precise float least = impulse - total;
-    return push > k_fast_push ? min(least, 0.0f) : 0.0f;
+    return choose(push > k_fast_push, min(least, 0.0f), 0.0f);
 }
 
 inline vec4 least_relaxed(ManifoldRows rows, vec4 base, ManifoldImpulses impulses, Softness soft)
@@ -221,15 +221,15 @@ inline FrictionTarget make_friction_target(ManifoldRows rows, vec4 normal_impuls
     precise vec4 moments = normal_impulse * rows.lever;
     precise float force = rows.friction * sum4(normal_impulse);
     precise float torque = rows.friction * sum4(moments);
-    float inverse_force = force > k_least_friction ? reciprocal(force) : 0.0f;
-    float inverse_torque = torque > k_least_friction ? reciprocal(torque) : 0.0f;
-    float force_radius = inverse_force > 0.0f ? force : 0.0f;
-    float torque_radius = inverse_torque > 0.0f ? torque : 0.0f;
+    float inverse_force = choose(force > k_least_friction, reciprocal(force), 0.0f);
+    float inverse_torque = choose(torque > k_least_friction, reciprocal(torque), 0.0f);
+    float force_radius = choose(inverse_force > 0.0f, force, 0.0f);
+    float torque_radius = choose(inverse_torque > 0.0f, torque, 0.0f);
     precise float lever = torque_radius * inverse_force;
     precise float square_lever = lever * lever;
     vec3 mass = rows.friction_mass;
     float smaller = min(mass.x, mass.y);
-    if (square_lever > 0.0f) smaller = min(smaller, mass.z * reciprocal(square_lever));
+    smaller = choose(square_lever > 0.0f, min(smaller, mass.z * reciprocal(square_lever)), smaller);
     precise float twist = smaller * square_lever;
     FrictionTarget target;
     target.radii = vec3(force_radius, force_radius, torque_radius);
@@ -322,14 +322,14 @@ inline uint sweeps_at(vec4 velocity)
 {
     vec4 v = velocity;
     float fastest = max(max(abs(v.x), abs(v.y)), max(abs(v.z), abs(v.w)));
-    return fastest > k_fast ? k_sweeps_of_fast : k_sweeps;
+    return choose(fastest > k_fast, k_sweeps_of_fast, k_sweeps);
 }
 
 inline NormalSweep solve_normals(NormalSweep sweep, ManifoldRows rows, NormalTarget target)
 {
     uint sweeps = sweeps_at(sweep.velocity);
-    for (uint i = 0u; i < sweeps; i += 1u)
-        sweep = sweep_normals(sweep, rows, target);
+    for (uint i = 0u; any_lane(i < sweeps); i += 1u)
+        sweep = choose_active(i < sweeps, sweep_normals(sweep, rows, target), sweep);
     return sweep;
 }
 
@@ -345,13 +345,15 @@ inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Friction
 {
     precise vec3 stuck = impulse - mass * velocity;
     vec3 on_sphere = limit_each(multiply3(stuck, target.inverse_radii), k_most_radii);
-    if (dot3(on_sphere, on_sphere) <= 1.0f) return multiply3(on_sphere, target.radii);
+    bool sticks = dot3(on_sphere, on_sphere) <= 1.0f;
+    vec3 sticking = multiply3(on_sphere, target.radii);
+    if (all_lanes(sticks)) return sticking;
 
     precise vec3 sliding = impulse - target.sliding_mass * velocity;
     on_sphere = limit_each(multiply3(sliding, target.inverse_radii), k_most_radii);
     float square = dot3(on_sphere, on_sphere);
-    if (square > 1.0f) on_sphere = scale3(on_sphere, inverse_sqrt(square));
-    return multiply3(on_sphere, target.radii);
+    on_sphere = choose(square > 1.0f, scale3(on_sphere, inverse_sqrt(square)), on_sphere);
+    return choose_active(!sticks, multiply3(on_sphere, target.radii), sticking);
 }
 
 // ---- passes ----
@@ -381,8 +383,8 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
 
     // The moment of all impulses for the present slip, but for what acted before the bodies came to where they are.
     SpatialVector change = whole_impulse(rows, normal_change, friction_change);
-    vec3 acting = target.moved_since ? change.linear : vec3(friction.x, friction.y, sum4(normal));
-    vec3 kept = target.moved_since ? old.moment : vec3(0.0f, 0.0f, 0.0f);
+    vec3 acting = choose(target.moved_since, change.linear, vec3(friction.x, friction.y, sum4(normal)));
+    vec3 kept = choose(target.moved_since, old.moment, vec3(0.0f, 0.0f, 0.0f));
     precise vec3 moment = kept + cross3(slip.apart, to_world(rows.meeting.frame, acting));
     precise vec3 moment_change = moment - old.moment;
     s.velocities = apply_impulse(s.velocities, rows.meeting, change, scale3(moment_change, slip.share_a),

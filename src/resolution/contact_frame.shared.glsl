@@ -5,7 +5,7 @@
 // square root, and continuous but for n.z = 0.
 inline Axes contact_frame(vec3 n)
 {
-    float sign = n.z < 0.0f ? -1.0f : 1.0f;
+    float sign = choose(n.z < 0.0f, -1.0f, 1.0f);
     precise float a = -reciprocal(sign + n.z);
     precise float b = n.x * n.y * a;
     precise vec3 t1 = vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);

@@ -101,7 +101,7 @@ inline float point_velocity(vec3 motion, float x, float y)
 }
 
 // 1 / K: an effective mass (equation 3.15). Without a K, as of a body that nothing turns, there is nothing to solve.
-inline float effective_mass(float k) { return k > 0.0f ? reciprocal(k) : 0.0f; }
+inline float effective_mass(float k) { return choose(k > 0.0f, reciprocal(k), 0.0f); }
 
 inline float point_mass(NormalResponse r, float x, float y)
 {
@@ -157,8 +157,8 @@ inline ManifoldRows couple_rows(ManifoldRows rows, NormalResponse r)
 // Of a share of a hub. `its_traits`: the constraint's, of this body.
 inline BodyInertia share_inertia(BodyInertia m, uint its_traits)
 {
-    if ((its_traits & k_trait_hub) == 0u) return m;
-    float shares = float(m.traits >> k_trait_shares);
+    if (all_lanes((its_traits & k_trait_hub) == 0u)) return m;
+    float shares = choose_active((its_traits & k_trait_hub) != 0u, float(m.traits >> k_trait_shares), 1.0f);
     precise vec3 diagonal = vec3(m.xx, m.yy, m.zz) * shares;
     precise vec3 rest = vec3(m.xy, m.xz, m.yz) * shares;
     BodyInertia share;

@@ -53,7 +53,7 @@ inline Substep make_substep(uint substeps, bool against_static, Parameters p)
         return s;
     }
     precise float eighth = 0.785398163f * inv_h; // 2 pi / 8
-    precise float w = min(eighth, p.contact_frequency) * (against_static ? 2.0f : 1.0f);
+    precise float w = min(eighth, p.contact_frequency) * choose(against_static, 2.0f, 1.0f);
     s.soft = soft_row(w, p.contact_damping_ratio, h);
     return s;
 }

@@ -15,14 +15,17 @@ void solve_island_groups_on_cpu(CpuState& state, const Launch&) {
     state.parallel(
         group_count,
         [&](uint i) {
-            IslandWork work{{}, first_of(i + 1), first_of(i + 2)};
+            IslandWork work;
             const uint first_place = i * k_group_window;
             for (uint place = first_place; place < min(first_place + k_group_room, body_count); ++place) {
                 const uint body = state.island_bodies[place];
                 if (state.island_places[body] == place && state.island_groups[body] == i + 1)
                     work.bodies.push_back(body);
             }
-            if (!work.bodies.empty()) solve_island(state, work);
+            if (work.bodies.empty()) return;
+            for (uint index = first_of(i + 1), last = first_of(i + 2); index < last; ++index)
+                work.add_constraint(state, index);
+            solve_together(state, work);
         },
         2);
 }

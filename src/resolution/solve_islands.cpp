@@ -1,42 +1,61 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of solve_islands.comp.glsl.
-#include "resolution/solve_islands.h"
-#include "resolution/body_passes.h"
-#include "resolution/contact_passes.h"
+#include <array>
+#include <vector>
+
+#include "resolution/lane_passes.h"
 #include "resolution/resolution.h"
+#include "resolution/solve_islands.h"
 
 namespace talus::engine {
+namespace {
 
-/// Those that have bodies. Manifolds are sorted by island.
-static std::vector<IslandWork> collect_islands(const CpuState& state) {
+/// Manifolds are sorted by island, then by colour. Each thread gets about as many of them.
+std::vector<IslandWork> collect_islands(const CpuState& state) {
     const uint body_count = state.parameters.body_count;
-    std::vector<IslandWork> islands(body_count);
-    for (uint body = 0; body < body_count; ++body)
-        if (state.islands[body] != k_none) islands[state.islands[body]].bodies.push_back(body);
-    uint index = 0;
+    const uint manifold_count = state.counters[k_counter_manifold_count];
+    const uint threads = state.threads->count();
+    const uint share = threads == 1 ? k_none : manifold_count / (4 * threads) + 1;
+    std::vector<IslandWork> parts(1);
+    std::vector<uint> part_of(body_count, 0); // for each island
+    uint index = 0, taken = 0;
     for (uint island = 0; island < body_count; ++island) {
-        islands[island].first = index;
-        while (index < state.counters[k_counter_manifold_count] &&
-               state.manifold_keys[index] >> k_colour_bits == island)
-            ++index;
-        islands[island].end = index;
+        part_of[island] = static_cast<uint>(parts.size()) - 1;
+        for (; index < manifold_count && state.manifold_keys[index] >> k_colour_bits == island; ++index, ++taken)
+            parts.back().add_constraint(state, index);
+        if (taken < share) continue;
+        parts.emplace_back();
+        taken = 0;
     }
-    std::erase_if(islands, [](const IslandWork& island) { return island.bodies.empty(); });
-    return islands;
+    for (uint body = 0; body < body_count; ++body) {
+        if (state.islands[body] == k_none) continue;
+        IslandWork& part = parts[part_of[state.islands[body]]];
+        part.bodies.push_back(body);
+    }
+    return parts;
 }
 
-void solve_island(CpuState& state, const IslandWork& island) {
+} // namespace
+
+void IslandWork::add_constraint(const CpuState& state, uint constraint) {
+    colours[state.manifold_keys[constraint] & ((1u << k_colour_bits) - 1)].push_back(constraint);
+}
+
+void solve_together(CpuState& state, const IslandWork& islands) {
     const Parameters& p = state.parameters;
     const auto over_contacts = [&](ContactPass pass, uint substep = 0) {
-        for (uint index = island.first; index < island.end; ++index)
+        for (uint colour = 0; colour < k_overflow_colour; ++colour) {
+            const std::vector<uint>& indices = islands.colours[colour];
+            pass_over_colour(state, pass, substep, indices.data(), static_cast<uint>(indices.size()));
+        }
+        for (const uint index : islands.colours[k_overflow_colour])
             pass_over_constraint(state, pass, substep, index);
     };
     uint last = 0;
-    for (const uint body : island.bodies)
+    for (const uint body : islands.bodies)
         last = max(last, state.inertias[body].substeps);
     for (uint substep = 0; substep <= last; ++substep) {
-        for (const uint body : island.bodies)
-            integrate_body(state, body, substep);
+        pass_over_bodies(state, substep, islands.bodies.data(), static_cast<uint>(islands.bodies.size()));
         if (substep == last) break;
         if (substep == 0) over_contacts(ContactPass::WarmStart);
         for (uint i = 0; i < p.iterations; ++i)
@@ -46,9 +65,9 @@ void solve_island(CpuState& state, const IslandWork& island) {
 }
 
 void solve_islands_on_cpu(CpuState& state, const Launch&) {
-    const std::vector<IslandWork> islands = collect_islands(state);
+    const std::vector<IslandWork> parts = collect_islands(state);
     state.parallel(
-        static_cast<uint>(islands.size()), [&](uint i) { solve_island(state, islands[i]); }, 2);
+        static_cast<uint>(parts.size()), [&](uint i) { solve_together(state, parts[i]); }, 1);
 }
 
 const Kernel solve_islands{"resolution/solve_islands", solve_islands_on_cpu, 1};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "device/cpu/cpu_state.h"
@@ -10,14 +11,17 @@
 
 namespace talus::engine {
 
-/// An island, or several, for one thread.
+/// Islands that one thread solves together: as they do not touch each other, they may make their passes in step, and
+/// one alone has few contacts of a colour.
 struct IslandWork {
-    std::vector<uint> bodies; ///< at least one
-    uint first = 0, end = 0;  ///< manifolds, in the order of colours
+    std::vector<uint> bodies;
+    std::array<std::vector<uint>, k_overflow_colour + 1> colours; ///< constraints, the overflow set last
+
+    void add_constraint(const CpuState&, uint constraint);
 };
 
 /// All sub-steps. Islands may have different numbers of them.
-void solve_island(CpuState& state, const IslandWork&);
+void solve_together(CpuState& state, const IslandWork&);
 
 void solve_islands_on_cpu(CpuState& state, const Launch& launch);
 void solve_island_groups_on_cpu(CpuState& state, const Launch& launch);

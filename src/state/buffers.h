@@ -25,6 +25,7 @@ namespace talus::engine {
     X(Shapes, shapes, BodyShape, "fffu", State)                                                                        \
     X(Properties, properties, BodyProperties, "fffffffffuuu", State)                                                   \
     X(Loads, loads, BodyLoad, "ffffffff", State)                                                                       \
+    X(Changes, changes, uint, "u", Scratch)                                                                            \
     /* broad phase */                                                                                                  \
     X(Aabbs, aabbs, Aabb, "fffffffu", Result)                                                                          \
     X(SpreadSums, spread_sums, SpreadSum, "ffffffffffff", Result)                                                      \

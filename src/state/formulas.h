@@ -5,6 +5,13 @@
 #include "narrow_phase/polygon.h"
 #include "state/buffers.h"
 
+// Formulas that run on several items side by side (device/cpu/lanes.h) choose by these instead of by ?: and if. For one
+// item they are the same; choose_active() stands where one item is known to fulfil the condition.
+#define choose(condition, yes, no) ((condition) ? (yes) : (no))
+#define choose_active(condition, yes, no) (yes)
+#define all_lanes(condition) (condition)
+#define any_lane(condition) (condition)
+
 namespace talus::engine {
 
 #include "state/math.shared.glsl"
@@ -43,3 +50,8 @@ namespace talus::engine {
 #include "finish/contact_report.shared.glsl"
 
 } // namespace talus::engine
+
+#undef choose
+#undef choose_active
+#undef all_lanes
+#undef any_lane

@@ -13,7 +13,7 @@ inline float reciprocal(float x)
     y = y * (2.0f - size * y);
     y = y * (2.0f - size * y);
     y = y * (2.0f - size * y);
-    return x < 0.0f ? -y : y;
+    return choose(x < 0.0f, -y, y);
 }
 
 // 1 / sqrt(x) to within 2 units in the last place, for x from 2^-125 on; finite at 0. Newton's method on f(y) = 1/y^2 - x

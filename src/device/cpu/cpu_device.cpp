@@ -119,6 +119,7 @@ public:
     void run(const Launch& launch) override {
         const uint items = launch.slot == k_none ? launch.items : state.dispatches[launch.slot].items;
         if (items == 0) return;
+        ++launches;
         const FlushDenormals flush;
         launch.kernel.twin(state, launch);
     }

@@ -2,6 +2,12 @@
 // Opens every compute shader: lets GLSL read the *.shared.glsl files, and holds what every kernel needs.
 #define inline
 
+// Formulas choose by these instead of by ?: and if where the CPU runs them on several items side by side.
+#define choose(condition, yes, no) ((condition) ? (yes) : (no))
+#define choose_active(condition, yes, no) (yes) // where the condition is known to hold
+#define all_lanes(condition) (condition)
+#define any_lane(condition) (condition)
+
 uniform uvec4 args; // what the launch says; each kernel's head gives the meaning
 
 // Number of this work group among all of the launch.

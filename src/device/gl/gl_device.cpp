@@ -32,7 +32,8 @@ void dispatch_groups(uint groups) {
 
 } // namespace
 
-GlDevice::Objects::Objects(bool profile) : parameters("Parameters", sizeof(Parameters)), steps(profile) {
+GlDevice::Objects::Objects(bool profile, bool program_cache)
+    : parameters("Parameters", sizeof(Parameters)), cache(program_cache), steps(profile) {
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         // Never empty, so that every buffer can be bound.
         const std::size_t bytes = whole_cells(k_buffers[i].stride);
@@ -42,12 +43,13 @@ GlDevice::Objects::Objects(bool profile) : parameters("Parameters", sizeof(Param
     parameters.zero(0, sizeof(Parameters));
 }
 
-GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile) : context_(std::move(context)) {
+GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile, bool program_cache)
+    : context_(std::move(context)) {
     context_->make_current();
     GLint64 bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     max_block_bytes_ = static_cast<std::size_t>(bytes);
-    objects_ = std::make_unique<Objects>(profile);
+    objects_ = std::make_unique<Objects>(profile, program_cache);
 }
 
 GlDevice::~GlDevice() {
@@ -128,6 +130,12 @@ void GlDevice::set_parameters(const Parameters& parameters) {
     parameters_ = parameters;
 }
 
+void GlDevice::prepare(std::span<const Kernel* const> kernels) {
+    make_current();
+    for (const Kernel* kernel : kernels)
+        begun_program(*kernel);
+}
+
 void GlDevice::run(const Launch& launch) {
     try {
         run_kernel(launch);
@@ -165,6 +173,7 @@ void GlDevice::run_kernel(const Launch& launch) {
     }
     glMemoryBarrier(barriers);
     kernels_pending_ = true;
+    ++launches;
 }
 
 void GlDevice::begin_stage(Stage stage) {
@@ -234,9 +243,15 @@ GlBuffer& GlDevice::buffer(BufferId id) const {
     return objects_->buffers[static_cast<std::size_t>(id)];
 }
 
-GlProgram& GlDevice::program(const Kernel& kernel) {
+GlProgram& GlDevice::begun_program(const Kernel& kernel) {
     const std::string path = kernel.path;
-    return objects_->programs.try_emplace(path, path).first->second;
+    return objects_->programs.try_emplace(path, path, objects_->cache).first->second;
+}
+
+GlProgram& GlDevice::program(const Kernel& kernel) {
+    GlProgram& begun = begun_program(kernel);
+    if (!begun.finished()) begun.finish(objects_->cache);
+    return begun;
 }
 
 void GlDevice::check_range(BufferId id, std::size_t end, const char* what) const {
@@ -261,10 +276,10 @@ void GlDevice::leave() {
     bindings_.end();
 }
 
-std::unique_ptr<Device> make_gl_device(GlContext context, bool profile, bool debug) {
+std::unique_ptr<Device> make_gl_device(GlContext context, bool profile, bool debug, bool program_cache) {
     check_kernel_folder();
     return std::make_unique<GlDevice>(context == GlContext::Own ? OpenGlContext::own(debug) : OpenGlContext::current(),
-                                      profile);
+                                      profile, program_cache);
 }
 
 } // namespace talus::engine

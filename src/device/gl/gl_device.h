@@ -20,7 +20,7 @@ namespace talus::engine {
 
 class GlDevice final : public Device {
 public:
-    GlDevice(std::unique_ptr<OpenGlContext>, bool profile);
+    GlDevice(std::unique_ptr<OpenGlContext>, bool profile, bool program_cache);
     ~GlDevice() override;
 
     DeviceInfo info() const override { return context_->info(); }
@@ -32,6 +32,7 @@ public:
     void read(std::span<const ReadRequest>) override;
     void swap(BufferId, BufferId) override;
     void set_parameters(const Parameters&) override;
+    void prepare(std::span<const Kernel* const>) override;
     void run(const Launch&) override;
     void begin_stage(Stage) override;
     Ticket end_step(bool with_poses, uint report_room) override;
@@ -47,10 +48,11 @@ public:
 private:
     /// Everything that lives in the context.
     struct Objects {
-        explicit Objects(bool profile);
+        Objects(bool profile, bool program_cache);
 
         std::array<GlBuffer, k_buffers.size()> buffers;
         GlBuffer parameters;
+        ProgramCache cache;
         std::unordered_map<std::string, GlProgram> programs;
         UploadRing uploads;
         ReadBack read_back;
@@ -58,6 +60,8 @@ private:
     };
 
     GlBuffer& buffer(BufferId) const;
+    /// The kernel's program, perhaps unfinished.
+    GlProgram& begun_program(const Kernel&);
     GlProgram& program(const Kernel&);
     void run_kernel(const Launch&);
     void check_range(BufferId, std::size_t end, const char* what) const;

@@ -4,20 +4,10 @@
 
 #include <cctype>
 #include <string_view>
-
-#include "device/gl/kernel_source.h"
+#include <utility>
 
 namespace talus::engine {
 namespace {
-
-/// A shader or program object until its owner takes it over.
-struct Unfinished {
-    GLuint name;
-    void (*destroy)(GLuint);
-    ~Unfinished() {
-        if (name != 0) destroy(name);
-    }
-};
 
 std::string shader_log(GLuint shader) {
     GLint length = 0;
@@ -35,29 +25,6 @@ std::string program_log(GLuint program) {
     glGetProgramInfoLog(program, length, &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     return log;
-}
-
-GLuint link_kernel(const std::string& path, const KernelSource& source) {
-    const Unfinished shader{glCreateShader(GL_COMPUTE_SHADER), [](GLuint name) { glDeleteShader(name); }};
-    const char* text = source.text.c_str();
-    glShaderSource(shader.name, 1, &text, nullptr);
-    glCompileShader(shader.name);
-    GLint done = GL_FALSE;
-    glGetShaderiv(shader.name, GL_COMPILE_STATUS, &done);
-    if (done == GL_FALSE)
-        throw Error("kernel " + path + " does not compile:\n" + trace_log(shader_log(shader.name), source));
-
-    Unfinished program{glCreateProgram(), [](GLuint name) { glDeleteProgram(name); }};
-    glAttachShader(program.name, shader.name);
-    glLinkProgram(program.name);
-    glDetachShader(program.name, shader.name);
-    glGetProgramiv(program.name, GL_LINK_STATUS, &done);
-    if (done == GL_FALSE)
-        throw Error("kernel " + path + " does not link:\n" + trace_log(program_log(program.name), source));
-    glObjectLabel(GL_PROGRAM, program.name, -1, path.c_str());
-    const GLuint name = program.name;
-    program.name = 0;
-    return name;
 }
 
 GLint resource(GLuint program, GLenum interface, GLuint index, GLenum property) {
@@ -90,27 +57,63 @@ bool is_declared_readonly(std::string_view source, const std::string& block) {
 
 } // namespace
 
-GlProgram::GlProgram(const std::string& path) : path_(path) {
-    const KernelSource source = kernel_source(path);
-    Unfinished linked{link_kernel(path, source), [](GLuint name) { glDeleteProgram(name); }};
-    name_ = linked.name;
-    find_blocks(source.text);
-    args_location_ = glGetUniformLocation(name_, "args");
-    const GLuint parameters = glGetUniformBlockIndex(name_, "ParametersBlock");
-    if (parameters != GL_INVALID_INDEX) {
-        GLint bytes = 0;
-        glGetActiveUniformBlockiv(name_, parameters, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
-        if (static_cast<std::size_t>(bytes) != sizeof(Parameters))
-            throw Error("kernel " + path + ": the block of Parameters has " + std::to_string(bytes) +
-                        " bytes in GLSL, but " + std::to_string(sizeof(Parameters)) + " in C++");
-        glUniformBlockBinding(name_, parameters, k_parameters_binding);
-        uses_parameters_ = true;
-    }
-    linked.name = 0;
+GlProgram::GlProgram(const std::string& path, const ProgramCache& cache)
+    : path_(path), source_(std::make_unique<KernelSource>(kernel_source(path))),
+      name_(cache.load(path, source_->text)) {
+    if (name_ == 0) begin_compiling();
 }
 
 GlProgram::~GlProgram() {
+    glDeleteShader(shader_);
     glDeleteProgram(name_);
+}
+
+void GlProgram::begin_compiling() {
+    shader_ = glCreateShader(GL_COMPUTE_SHADER);
+    const char* text = source_->text.c_str();
+    glShaderSource(shader_, 1, &text, nullptr);
+    glCompileShader(shader_);
+    name_ = glCreateProgram();
+    glProgramParameteri(name_, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    glAttachShader(name_, shader_);
+    glLinkProgram(name_);
+}
+
+void GlProgram::finish(const ProgramCache& cache) {
+    if (finished()) return;
+    if (shader_ != 0) {
+        check_compiled();
+        glDetachShader(name_, shader_);
+        glDeleteShader(std::exchange(shader_, 0));
+        cache.store(path_, source_->text, name_);
+    }
+    glObjectLabel(GL_PROGRAM, name_, -1, path_.c_str());
+    find_blocks();
+    find_parameters();
+    args_location_ = glGetUniformLocation(name_, "args");
+    source_.reset();
+}
+
+void GlProgram::check_compiled() const {
+    GLint done = GL_FALSE;
+    glGetShaderiv(shader_, GL_COMPILE_STATUS, &done);
+    if (done == GL_FALSE)
+        throw Error("kernel " + path_ + " does not compile:\n" + trace_log(shader_log(shader_), *source_));
+    glGetProgramiv(name_, GL_LINK_STATUS, &done);
+    if (done == GL_FALSE)
+        throw Error("kernel " + path_ + " does not link:\n" + trace_log(program_log(name_), *source_));
+}
+
+void GlProgram::find_parameters() {
+    const GLuint parameters = glGetUniformBlockIndex(name_, "ParametersBlock");
+    uses_parameters_ = parameters != GL_INVALID_INDEX;
+    if (!uses_parameters_) return;
+    GLint bytes = 0;
+    glGetActiveUniformBlockiv(name_, parameters, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
+    if (static_cast<std::size_t>(bytes) != sizeof(Parameters))
+        throw Error("kernel " + path_ + ": the block of Parameters has " + std::to_string(bytes) +
+                    " bytes in GLSL, but " + std::to_string(sizeof(Parameters)) + " in C++");
+    glUniformBlockBinding(name_, parameters, k_parameters_binding);
 }
 
 BufferId GlProgram::buffer(const StorageBlock& block, const Launch& launch) const {
@@ -128,7 +131,8 @@ void GlProgram::set_args(const std::array<uint, 4>& args) {
     args_ = args;
 }
 
-void GlProgram::find_blocks(const std::string& source) {
+void GlProgram::find_blocks() {
+    blocks_.clear();
     GLint count = 0;
     glGetProgramInterfaceiv(name_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
     if (static_cast<std::size_t>(count) > k_max_storage_blocks)
@@ -142,7 +146,7 @@ void GlProgram::find_blocks(const std::string& source) {
         glGetProgramResourceName(name_, GL_SHADER_STORAGE_BLOCK, index, length, &written, block.name.data());
         block.name.resize(static_cast<std::size_t>(written));
         block.buffer = buffer_of_block(block.name);
-        block.written = !is_declared_readonly(source, block.name);
+        block.written = !is_declared_readonly(source_->text, block.name);
         if (block.buffer) check_stride(index, k_buffers[static_cast<std::size_t>(*block.buffer)]);
         glShaderStorageBlockBinding(name_, index, index);
         blocks_.push_back(std::move(block));

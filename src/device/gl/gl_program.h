@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include <epoxy/gl.h>
 
 #include "device/device.h"
+#include "device/gl/kernel_source.h"
+#include "device/gl/program_cache.h"
 
 namespace talus::engine {
 
@@ -22,12 +25,18 @@ struct StorageBlock {
 
 class GlProgram {
 public:
-    /// Compiles and links. Throws Error with the driver's log, in which the lines are those of the source files; or
-    /// where the records of a block have another size than in k_buffers.
-    explicit GlProgram(const std::string& path);
+    /// Takes the program from the cache, or gives its source to the driver's compiler without waiting for it. Throws
+    /// Error where a source file is missing.
+    GlProgram(const std::string& path, const ProgramCache&);
     ~GlProgram();
     GlProgram(const GlProgram&) = delete;
     GlProgram& operator=(const GlProgram&) = delete;
+
+    /// Waits for the compiler; to be called before anything of what follows. Throws Error with the driver's log, in
+    /// which the lines are those of the source files; or where the records of a block have another size than in
+    /// k_buffers.
+    void finish(const ProgramCache&);
+    bool finished() const noexcept { return !source_; }
 
     GLuint name() const noexcept { return name_; }
     const std::vector<StorageBlock>& blocks() const noexcept { return blocks_; }
@@ -37,10 +46,15 @@ public:
     void set_args(const std::array<uint, 4>&);
 
 private:
-    void find_blocks(const std::string& source);
+    void begin_compiling();
+    void check_compiled() const;
+    void find_blocks();
+    void find_parameters();
     void check_stride(GLuint block_index, const BufferInfo&) const;
 
     std::string path_;
+    std::unique_ptr<KernelSource> source_; // until the program is finished
+    GLuint shader_ = 0;                    // the compiler's; 0 for a program from the cache
     GLuint name_ = 0;
     std::vector<StorageBlock> blocks_;
     bool uses_parameters_ = false;

@@ -8,8 +8,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 #include <talus/types.h>
 
@@ -86,6 +88,20 @@ struct Assembly {
     }
 };
 
+/// record_cells() of the records' text, which is the same for all kernels: it is only made again where another folder
+/// of kernels has brought another text.
+std::string shared_record_cells() {
+    static std::mutex mutex;
+    static std::string records, cells;
+    std::string text = shader_text("state/records.shared.glsl", "every kernel");
+    const std::lock_guard lock(mutex);
+    if (text != records) {
+        cells = record_cells(text);
+        records = std::move(text);
+    }
+    return cells;
+}
+
 } // namespace
 
 std::vector<std::string> kernel_paths() {
@@ -116,7 +132,7 @@ KernelSource kernel_source(std::string_view path) {
     assembly.add_text("head of every kernel", "#version 450 core\n");
     for (const char* shared : {"device/gl/dialect.glsl", "state/constants.shared.glsl", "state/records.shared.glsl"})
         assembly.add_file(shared, "every kernel");
-    assembly.add_text("cells of the records", record_cells(shader_text("state/records.shared.glsl", "every kernel")));
+    assembly.add_text("cells of the records", shared_record_cells());
     assembly.add_text("parameters of every kernel",
                       "layout(std140) uniform ParametersBlock { Parameters parameters; };\n");
     assembly.add_file(file, "the step");

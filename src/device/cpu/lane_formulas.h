@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The shared formulas of the solver's passes, on several items at once: the same files, with lanes for numbers. What a
+// formula decides item by item it has to say by choose(), all_lanes() and any_lane(); one that does not can be
+// compiled, but not be linked.
+#pragma once
+
+#include "device/cpu/lanes.h"
+#include "state/formulas.h"
+
+namespace talus::engine::TALUS_LANES_NAME {
+
+/// A vector of the step's constants.
+TALUS_LANE vec3 operator*(glm::vec3 a, Lanes b) {
+    return {a.x * b, a.y * b, a.z * b};
+}
+
+#define choose_active choose
+#define float Lanes
+#define uint ULanes
+#define bool Mask
+#define inline [[gnu::always_inline]] inline
+
+#define Parameters ParametersOfLanes
+#include "state/records.shared.glsl"
+#undef Parameters
+using engine::Parameters; // the same for all lanes
+
+#include "state/math.shared.glsl"
+
+#include "resolution/contact_frame.shared.glsl"
+#include "resolution/softness.shared.glsl"
+
+#include "resolution/body.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
+
+struct NormalSweep;
+inline NormalSweep choose(bool, const NormalSweep&, const NormalSweep&);
+#include "resolution/contact.shared.glsl"
+inline NormalSweep choose(bool m, const NormalSweep& yes, const NormalSweep& no) {
+    return {choose(m, yes.velocity, no.velocity), choose(m, yes.impulse, no.impulse)};
+}
+
+#undef choose_active
+#undef float
+#undef uint
+#undef bool
+#undef inline
+
+} // namespace talus::engine::TALUS_LANES_NAME

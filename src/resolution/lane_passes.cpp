@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "resolution/lane_passes.h"
+
+#include <algorithm>
+
+#include "resolution/body_passes.h"
+
+namespace talus::engine {
+namespace {
+
+template <typename Pass, typename One> void treat(const uint* indices, uint count, const Pass& pass, const One& one) {
+    const uint lanes = lane_passes().lanes;
+    for (uint first = 0; first < count; first += lanes) {
+        uint left_alone = pass(indices + first, std::min(lanes, count - first));
+        for (; left_alone != 0; left_alone &= left_alone - 1)
+            one(indices[first + static_cast<uint>(findLSB(left_alone))]);
+    }
+}
+
+} // namespace
+
+// One a file, as each is compiled for its own instructions.
+extern const LanePasses lane_passes_base;
+#ifdef TALUS_HAS_AVX2
+extern const LanePasses lane_passes_avx2;
+#endif
+
+const LanePasses& lane_passes() {
+#ifdef TALUS_HAS_AVX2
+    static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+    if (has_avx2) return lane_passes_avx2;
+#endif
+    return lane_passes_base;
+}
+
+void pass_over_colour(CpuState& state, ContactPass pass, uint substep, const uint* indices, uint count) {
+    treat(
+        indices, count,
+        [&](const uint* part, uint size) { return lane_passes().over_constraints(state, pass, substep, part, size); },
+        [&](uint index) { pass_over_constraint(state, pass, substep, index); });
+}
+
+void pass_over_bodies(CpuState& state, uint substep, const uint* indices, uint count) {
+    treat(
+        indices, count,
+        [&](const uint* part, uint size) { return lane_passes().over_bodies(state, substep, part, size); },
+        [&](uint body) { integrate_body(state, body, substep); });
+}
+
+} // namespace talus::engine

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// LanePasses for one set of instructions. Included once by each lane_passes_*.cpp.
+#pragma once
+
+#include "device/cpu/lane_formulas.h"
+#include "resolution/lane_passes.h"
+
+namespace talus::engine::TALUS_LANES_NAME {
+
+/// As target_of_pass in contact_passes.h.
+TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ContactConstraint& c, const ManifoldRows& rows,
+                                     const ManifoldImpulses& impulses, const BodyDelta& delta_a,
+                                     const BodyDelta& delta_b, const Parameters& p) {
+    const bool relax = pass == ContactPass::Relax;
+    const Mask against_static = is_against_static(c.traits);
+    const Substep substep = make_substep(c.substeps, against_static, p);
+    PassTarget target;
+    target.friction = make_friction_target(rows, impulses.normal);
+    target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
+    target.moved_since = relax;
+    target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
+    target.half_h = choose(against_static && !Mask(relax), 0.5f * substep_length(c.substeps, p), 0.0f);
+    target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
+                                       impulses.normal, !relax, substep, p);
+    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep.soft);
+    return target;
+}
+
+// ---- records of lanes, cell by cell as records.shared.glsl has them ----
+
+TALUS_LANE BodyVelocity velocities_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto linear = gather(state.velocities.data, bodies, 0), angular = gather(state.velocities.data, bodies, 1);
+    return {three_of(linear), linear.w, three_of(angular), angular.w};
+}
+
+TALUS_LANE void put_velocities(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
+                               const BodyVelocity& v) {
+    const std::uint32_t pushed = lanes & bits_of(v.inverse_mass != 0.0f);
+    scatter(state.velocities.data, bodies, 0, pushed, {v.linear.x, v.linear.y, v.linear.z, v.inverse_mass});
+    scatter(state.velocities.data, bodies, 1, pushed, {v.angular.x, v.angular.y, v.angular.z, v.reserved});
+}
+
+TALUS_LANE void put_deltas(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
+                           const BodyDelta& d) {
+    scatter(state.deltas.data, bodies, 0, lanes, {d.position.x, d.position.y, d.position.z, d.reserved});
+    scatter(state.deltas.data, bodies, 1, lanes, {d.rotation.x, d.rotation.y, d.rotation.z, d.rotation.w});
+}
+
+TALUS_LANE BodyWarmStart warm_starts_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto a = gather(state.warm_starts.data, bodies, 0), b = gather(state.warm_starts.data, bodies, 1),
+               c = gather(state.warm_starts.data, bodies, 2), d = gather(state.warm_starts.data, bodies, 3);
+    return {three_of(a), a.w, three_of(b), b.w, three_of(c), c.w, three_of(d), d.w};
+}
+
+TALUS_LANE void put_warm_starts(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
+                                const BodyWarmStart& w) {
+    scatter(state.warm_starts.data, bodies, 0, lanes, {w.linear.x, w.linear.y, w.linear.z, w.shift_x});
+    scatter(state.warm_starts.data, bodies, 1, lanes, {w.angular.x, w.angular.y, w.angular.z, w.shift_y});
+    scatter(state.warm_starts.data, bodies, 2, lanes,
+            {w.linear_before.x, w.linear_before.y, w.linear_before.z, w.shift_z});
+    scatter(state.warm_starts.data, bodies, 3, lanes,
+            {w.angular_before.x, w.angular_before.y, w.angular_before.z, w.reserved});
+}
+
+TALUS_LANE BodyProperties properties_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto a = gather(state.properties.data, bodies, 0), b = gather(state.properties.data, bodies, 1),
+               c = gather(state.properties.data, bodies, 2);
+    return {three_of(a),         a.w, b.x, b.y, b.z, b.w, c.x, floatBitsToUint(c.y), floatBitsToUint(c.z),
+            floatBitsToUint(c.w)};
+}
+
+TALUS_LANE BodyLoad loads_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto force = gather(state.loads.data, bodies, 0), torque = gather(state.loads.data, bodies, 1);
+    return {three_of(force), force.w, three_of(torque), torque.w};
+}
+
+TALUS_LANE BodyDelta deltas_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto position = gather(state.deltas.data, bodies, 0);
+    return {three_of(position), position.w, all_of(gather(state.deltas.data, bodies, 1))};
+}
+
+TALUS_LANE BodyInertia inertias_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto first = gather(state.inertias.data, bodies, 0), second = gather(state.inertias.data, bodies, 1);
+    return {
+        first.x, first.y, first.z, first.w, second.x, second.y, floatBitsToUint(second.z), floatBitsToUint(second.w)};
+}
+
+TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::uint32_t* places) {
+    const auto cell = [&](std::size_t i) __attribute__((always_inline)) {
+        return gather(state.constraints.data, places, i);
+    };
+    const auto head = cell(0), normal = cell(1), centre_a = cell(2), centre_b = cell(3), gap = cell(4), mass = cell(5),
+               friction = cell(11), moment = cell(12);
+    return {floatBitsToUint(head.x),
+            floatBitsToUint(head.y),
+            floatBitsToUint(head.z),
+            floatBitsToUint(head.w),
+            three_of(normal),
+            normal.w,
+            three_of(centre_a),
+            centre_a.w,
+            three_of(centre_b),
+            centre_b.w,
+            three_of(gap),
+            floatBitsToUint(gap.w),
+            three_of(mass),
+            floatBitsToUint(mass.w),
+            all_of(cell(6)),
+            all_of(cell(7)),
+            all_of(cell(8)),
+            all_of(cell(9)),
+            all_of(cell(10)),
+            three_of(friction),
+            friction.w,
+            three_of(moment),
+            moment.w,
+            all_of(cell(13)),
+            all_of(cell(14)),
+            all_of(cell(15))};
+}
+static_assert(offsetof(engine::ContactConstraint, friction_impulse) == 11 * sizeof(Cell) &&
+              sizeof(engine::ContactConstraint) == 16 * sizeof(Cell));
+
+TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
+                             const ManifoldImpulses& is, const ContactConstraint& was) {
+    const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
+        scatter(state.constraints.data, places, cell, lanes, {x, y, z, w});
+    };
+    put(11, is.friction.x, is.friction.y, is.friction.z, was.reserved_1);
+    put(12, is.moment.x, is.moment.y, is.moment.z, was.reserved_2);
+    put(13, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
+    put(14, is.total.x, is.total.y, is.total.z, is.total.w);
+}
+
+struct Places {
+    std::uint32_t constraint[k_lanes], body_a[k_lanes], body_b[k_lanes];
+};
+
+/// As pass_over_constraint in contact_passes.h.
+inline std::uint32_t pass_over_constraints(const CpuState& state, ContactPass pass, std::uint32_t substep,
+                                           const std::uint32_t* indices, std::uint32_t count) {
+    Places places;
+    std::uint32_t active = 0, left_alone = 0;
+    for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
+        const std::uint32_t index = indices[lane < count ? lane : 0];
+        const engine::ContactConstraint& c = state.constraints.data[index];
+        places.constraint[lane] = index;
+        places.body_a[lane] = c.body_a;
+        places.body_b[lane] = c.body_b;
+        if (lane >= count || substep >= c.substeps) continue;
+        const bool hub = (c.traits & (k_trait_hub | k_trait_hub << engine::k_traits_of_b)) != 0;
+        (hub ? left_alone : active) |= 1u << lane;
+    }
+    if (active == 0) return left_alone;
+
+    const ContactConstraint c = constraints_at(state, places.constraint);
+    const ManifoldRows rows = make_rows(c, inertias_at(state, places.body_a), inertias_at(state, places.body_b));
+    ManifoldState s{
+        {velocities_at(state, places.body_a), velocities_at(state, places.body_b)}, make_impulses(c), false};
+    if (pass == ContactPass::WarmStart) {
+        s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
+    } else {
+        const PassTarget target = target_of_pass(pass, c, rows, s.impulses, deltas_at(state, places.body_a),
+                                                 deltas_at(state, places.body_b), state.parameters);
+        s = solve_manifold(s, rows, target);
+        const std::uint32_t unusual = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
+        active &= ~unusual;
+        left_alone |= unusual;
+        put_impulses(state, places.constraint, active, s.impulses, c);
+    }
+    put_velocities(state, places.body_a, active, s.velocities.a);
+    put_velocities(state, places.body_b, active, s.velocities.b);
+    return left_alone;
+}
+
+/// As integrate_body in body_passes.h.
+inline std::uint32_t integrate_bodies(const CpuState& state, std::uint32_t substep, const std::uint32_t* indices,
+                                      std::uint32_t count) {
+    std::uint32_t bodies[k_lanes];
+    std::uint32_t active = 0, ending = 0, rigid = 0; // bits
+    for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
+        const std::uint32_t body = bodies[lane] = indices[lane < count ? lane : 0];
+        const std::uint32_t substeps = state.inertias.data[body].substeps, bit = 1u << lane;
+        const std::uint32_t kind = state.shapes.data[body].type >> 8 & 255u; // see kind_of
+        if (lane >= count || substep > substeps || (kind != k_kind_rigid && kind != k_kind_kinematic) ||
+            (state.poses.data[body].flags & k_body_frozen) != 0)
+            continue;
+        active |= bit;
+        if (substep == substeps) ending |= bit;
+        if (kind == k_kind_rigid) rigid |= bit;
+    }
+    if (active == 0) return 0;
+
+    const Parameters& p = state.parameters;
+    const BodyInertia inertia = inertias_at(state, bodies);
+    const Lanes h = substep_length(inertia.substeps, p);
+    BodyVelocity velocity = velocities_at(state, bodies);
+    BodyDelta delta = deltas_at(state, bodies);
+    BodyWarmStart warm = warm_starts_at(state, bodies);
+    if (substep > 0) delta = integrate_position(delta, warm, velocity, h);
+    const std::uint32_t going_on = active & ~ending;
+    std::uint32_t unusual = 0;
+    if (going_on != 0) {
+        const vec4 rotation = multiply_quaternions(delta.rotation, all_of(gather(state.poses.data, bodies, 1)));
+        warm = gather_impulses(warm, velocity);
+        velocity = integrate_velocity(velocity, warm, rotation, properties_at(state, bodies), inertia,
+                                      loads_at(state, bodies), mask_of(rigid), h, p);
+        unusual = going_on & ~bits_of(is_finite3(velocity.linear) && is_finite3(velocity.angular));
+        warm.linear_before = velocity.linear;
+        warm.angular_before = velocity.angular;
+        put_warm_starts(state, bodies, going_on & ~unusual, warm);
+        scatter(state.velocities.data, bodies, 0, going_on & ~unusual,
+                {velocity.linear.x, velocity.linear.y, velocity.linear.z, velocity.inverse_mass});
+        scatter(state.velocities.data, bodies, 1, going_on & ~unusual,
+                {velocity.angular.x, velocity.angular.y, velocity.angular.z, velocity.reserved});
+    }
+    if (substep > 0) put_deltas(state, bodies, active & ~unusual, delta);
+    return unusual;
+}
+
+} // namespace talus::engine::TALUS_LANES_NAME

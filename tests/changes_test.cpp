@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Bodies that come, go and change while steps are on their way: it costs bytes for what changes and nothing for the
+// rest of the world, nobody waits, and the bits are those of a world that waits after every step.
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/bodies.h"
+#include "tests/devices.h"
+
+namespace talus::tests {
+namespace {
+
+constexpr int k_churn = 10; // bodies removed and added before each step
+
+/// Boxes that touch nothing.
+std::vector<BodyDefinition> scattered(int count) {
+    std::vector<BodyDefinition> bodies;
+    for (int i = 0; i < count; ++i)
+        bodies.push_back(box_at({3.0f * static_cast<float>(i % 50), 0.0f, 3.0f * static_cast<float>(i / 50)}));
+    return bodies;
+}
+
+class Changes : public OnDevice {
+protected:
+    World tiny_world() const {
+        WorldOptions options = options_on(GetParam());
+        options.capacities = {1, 1, 1};
+        return World({}, options);
+    }
+};
+
+TEST_P(Changes, cost_bytes_for_what_changes_and_no_wait) {
+    std::vector<Transfers> costs;
+    for (const int bodies : {100, 2'000}) {
+        World world = make_world(weightless());
+        std::vector<BodyId> ids = world.add(scattered(bodies));
+        world.step();
+        world.wait();
+        const Transfers before = world.transfers();
+        for (int step = 0; step < 5; ++step) {
+            for (int i = 0; i < k_churn; ++i) {
+                const std::size_t which = static_cast<std::size_t>(k_churn * step + i);
+                world.remove(ids[which]);
+                ids.push_back(world.add(box_at({static_cast<float>(-3 * i), 3.0f, static_cast<float>(-3 * step)})));
+            }
+            world.add_force(ids.back(), {1.0f, 0.0f, 0.0f});
+            world.set_gravity_scale(ids.back(), 0.5f);
+            world.step();
+        }
+        const Transfers after = world.transfers();
+        costs.push_back(
+            {after.to_device - before.to_device, after.to_host - before.to_host, after.waits - before.waits});
+        EXPECT_EQ(world.body_count(), static_cast<std::size_t>(bodies));
+    }
+    EXPECT_GT(costs[0].to_device, 0u);
+    EXPECT_LT(costs[0].to_device, 5u * k_churn * 400u); // all records of a body are 160 bytes
+    for (const Transfers& cost : costs) {
+        EXPECT_EQ(cost.to_device, costs[0].to_device);
+        EXPECT_EQ(cost.to_host, 0u);
+        EXPECT_EQ(cost.waits, 0u);
+    }
+}
+
+TEST_P(Changes, behind_steps_that_are_made_again_give_the_same_bits) {
+    // In the first world several steps are on their way, each with changes, when one of them turns out not to fit.
+    World hasty = tiny_world(), patient = make_world();
+    std::vector<BodyId> ids;
+    for (World* world : {&hasty, &patient}) {
+        ids.clear();
+        ids.push_back(world->add(ground()));
+        for (int i = 0; i < 40; ++i) {
+            const float x = 1.05f * static_cast<float>(i % 4), z = 1.05f * static_cast<float>(i / 4 % 3);
+            ids.push_back(world->add(box_at({x, 0.5f + 1.02f * static_cast<float>(i / 12), z})));
+            world->add_force(ids.back(), {20'000.0f, 0.0f, 0.0f});
+            if (i % 5 == 4) world->remove(ids[static_cast<std::size_t>(i - 2)]);
+            if (i % 7 == 6) world->set_material(ids[static_cast<std::size_t>(i)], {0.1f, 0.0f});
+            world->step(2);
+            if (world == &patient) world->wait();
+        }
+    }
+    EXPECT_GT(hasty.report().growths, 1u);
+    EXPECT_EQ(hasty.body_count(), 33u);
+    EXPECT_EQ(hasty.state_hash(), patient.state_hash());
+}
+
+TEST_P(Changes, that_no_step_has_seen_yet_survive_a_look_at_the_world) {
+    World world = make_world(weightless());
+    const BodyId first = world.add(box_at({}));
+    world.step(3);
+    BodyDefinition late = box_at({5.0f, 0.0f, 0.0f});
+    late.velocity.linear.y = 60.0f;
+    const BodyId second = world.add(late);
+    const BodyId third = world.add(box_at({10.0f, 0.0f, 0.0f}));
+    world.remove(third);
+    world.add_force(first, {6'000.0f, 0.0f, 0.0f});
+    EXPECT_EQ(world.pose(first).position.x, 0.0f); // reads all bodies
+    EXPECT_EQ(world.pose(second).position.x, 5.0f);
+    EXPECT_EQ(world.velocity(second).linear.y, 60.0f);
+    world.step();
+    EXPECT_NEAR(world.pose(second).position.y, 1.0f, 1e-4f);
+    EXPECT_NEAR(world.velocity(first).linear.x, 0.1f, 1e-4f); // 6 kN on a tonne for a sixtieth of a second
+    world.step();
+    EXPECT_NEAR(world.velocity(first).linear.x, 0.1f, 1e-4f); // the force is used up
+    EXPECT_EQ(world.body_count(), 2u);
+}
+
+TEST_P(Changes, of_a_force_add_up_also_where_the_buffers_are_looked_at_in_between) {
+    if (!has_gl()) return; // there are none
+    World world = make_world(weightless());
+    const BodyId box = world.add(box_at({}));
+    world.step();
+    world.add_force(box, {6'000.0f, 0.0f, 0.0f});
+    world.gl_buffers();
+    world.add_force(box, {6'000.0f, 0.0f, 0.0f});
+    world.step(2);
+    EXPECT_NEAR(world.velocity(box).linear.x, 0.2f, 1e-4f);
+}
+
+TEST_P(Changes, that_empty_a_world_give_its_slots_back) {
+    World world = make_world(weightless());
+    const std::vector<BodyId> ids = world.add(scattered(600));
+    world.step();
+    const std::uint64_t full = world.memory().host;
+    for (std::size_t i = 10; i < ids.size(); ++i)
+        world.remove(ids[i]);
+    world.step(2);
+    EXPECT_LT(world.memory().host, full / 20);
+    EXPECT_FALSE(world.contains(ids[300]));
+    const std::string error = error_of([&] { world.remove(ids[300]); });
+    EXPECT_NE(error.find("was removed"), std::string::npos) << error;
+
+    // What comes back has a new generation, and the lowest slots.
+    world.remove(ids[4]);
+    world.step();
+    for (const BodyId id : world.add(scattered(300))) {
+        EXPECT_TRUE(world.contains(id));
+        EXPECT_NE(id.generation, ids[id.index].generation);
+    }
+    world.step();
+    EXPECT_EQ(world.body_count(), 309u);
+    EXPECT_EQ(world.bodies().size(), 309u);
+    EXPECT_EQ(world.bodies()[4].index, 4u);
+    EXPECT_EQ(world.bodies().back().index, 308u);
+    EXPECT_FALSE(world.contains(ids[4]));
+}
+
+TALUS_ON_EVERY_DEVICE(Changes);
+
+} // namespace
+} // namespace talus::tests

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// The CPU device's passes over several items side by side give the bits of the passes over one item at a time, for each
+// set of instructions that this machine has.
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "device/cpu/flush_denormals.h"
+#include "resolution/body_passes.h"
+#include "resolution/lane_passes.h"
+
+namespace talus::engine {
+
+extern const LanePasses lane_passes_base;
+#ifdef TALUS_HAS_AVX2
+extern const LanePasses lane_passes_avx2;
+#endif
+
+namespace {
+
+std::vector<const LanePasses*> all_lane_passes() {
+    std::vector<const LanePasses*> all{&lane_passes_base};
+#ifdef TALUS_HAS_AVX2
+    if (__builtin_cpu_supports("avx2") != 0) all.push_back(&lane_passes_avx2);
+#endif
+    return all;
+}
+
+/// Constraints each of two bodies of their own, or of one and the static body that all share.
+struct Items {
+    static constexpr uint k_count = 40;
+
+    explicit Items(std::uint32_t seed, float restitution) : random(seed) {
+        for (uint i = 0; i < 2 * k_count + 1; ++i)
+            add_body(i);
+        for (uint i = 0; i < k_count; ++i)
+            add_constraint(i, restitution);
+        counters.resize(k_counter_words);
+    }
+
+    CpuState state() {
+        CpuState s;
+        s.parameters.gravity = vec3(0.0f, -9.81f, 0.0f);
+        s.parameters.dt = 1.0f / 60.0f;
+        s.parameters.inv_dt = 60.0f;
+        s.parameters.contact_push_speed = 3.0f;
+        s.parameters.contact_frequency = 6283.0f;
+        s.parameters.contact_damping_ratio = 5.0f;
+        s.parameters.restitution_threshold = 1.0f;
+        s.parameters.max_linear_speed = 500.0f;
+        s.parameters.max_angular_speed = 4.0f; // some are faster
+        s.parameters.body_count = 2 * k_count + 1;
+        s.poses = {poses.data(), poses.size()};
+        s.velocities = {velocities.data(), velocities.size()};
+        s.shapes = {shapes.data(), shapes.size()};
+        s.properties = {properties.data(), properties.size()};
+        s.loads = {loads.data(), loads.size()};
+        s.inertias = {inertias.data(), inertias.size()};
+        s.warm_starts = {warm_starts.data(), warm_starts.size()};
+        s.deltas = {deltas.data(), deltas.size()};
+        s.constraints = {constraints.data(), constraints.size()};
+        s.counters = {counters.data(), counters.size()};
+        return s;
+    }
+
+    float number(float size) { return std::uniform_real_distribution<float>(-size, size)(random); }
+    vec3 vector(float size) { return {number(size), number(size), number(size)}; }
+
+    void add_body(uint i) {
+        const bool is_static = i == 2 * k_count;
+        const float inverse_mass = is_static ? 0.0f : 1.0f + number(0.5f);
+        const vec4 rotation = normalise_quaternion(vec4(number(1.0f), number(1.0f), number(1.0f), 1.0f));
+        poses.push_back({vector(5.0f), i % 17 == 16 ? k_body_frozen : 0u, rotation});
+        velocities.push_back({vector(2.0f), inverse_mass, vector(5.0f), 0.0f});
+        const uint kind = is_static ? k_kind_static : i % 9 == 8 ? k_kind_kinematic : k_kind_rigid;
+        shapes.push_back({vec3(0.5f), k_shape_box | kind << 8 | (i % 10 == 4 ? k_sensor_bit : 0u)});
+        const vec3 inverse_inertia = i % 3 == 0 ? vec3(6.0f) : vec3(6.0f, 5.0f + number(1.0f), 4.0f);
+        properties.push_back(
+            {inverse_inertia, inverse_mass, 1.0f, i % 4 == 0 ? 0.1f : 0.0f, 0.0f, 0.5f, 0.0f, 0, 0, 0});
+        loads.push_back({vector(i % 5 == 0 ? 100.0f : 0.0f), 0.0f, vector(i % 5 == 0 ? 10.0f : 0.0f), 0.0f});
+        inertias.push_back(world_inertia(rotation, inverse_inertia, !is_static, false, i % 7 == 6 ? 2 : 8));
+        velocities.back().angular = i == 3 ? vec3(1e30f) : velocities.back().angular; // ends non-finite
+        warm_starts.push_back(no_warm_start(velocities.back()));
+        warm_starts.back().linear = vector(0.1f);
+        deltas.push_back(
+            {vector(0.01f), 0.0f, normalise_quaternion(vec4(number(0.01f), number(0.01f), number(0.01f), 1.0f))});
+    }
+
+    void add_constraint(uint i, float restitution) {
+        ContactConstraint c{};
+        c.body_a = 2 * i;
+        c.body_b = i % 4 == 3 ? 2 * k_count : 2 * i + 1;
+        c.point_count = 1 + i % 4;
+        const vec3 n = vector(1.0f);
+        c.normal = scale3(n, inverse_sqrt(dot3(n, n)));
+        c.friction = 0.5f;
+        c.restitution = restitution;
+        c.centre_a = vector(0.5f);
+        c.centre_b = vector(0.5f);
+        c.inverse_masses = velocities[c.body_a].inverse_mass + velocities[c.body_b].inverse_mass;
+        c.gap = vector(0.001f);
+        c.traits =
+            k_trait_movable | (i % 4 == 3 ? 0u : k_trait_movable << k_traits_of_b) | (i % 6 == 5 ? k_trait_round : 0u);
+        c.friction_mass = vec3(0.4f, 0.4f, 0.1f);
+        c.substeps = i % 7 == 6 ? 2 : 8;
+        for (int k = 0; k < static_cast<int>(c.point_count); ++k) {
+            c.x[k] = number(0.5f);
+            c.y[k] = number(0.5f);
+            c.lever[k] = 0.5f;
+            c.base_separation[k] = number(0.02f);
+            c.normal_mass[k] = 0.3f + number(0.1f);
+            c.normal_impulse[k] = i % 5 == 0 ? 0.0f : 1.0f + number(1.0f);
+            c.total_impulse[k] = c.normal_impulse[k] * 3.0f;
+        }
+        c.friction_impulse = vector(0.3f);
+        c.moment = vector(0.01f);
+        constraints.push_back(c);
+    }
+
+    std::mt19937 random;
+    std::vector<BodyPose> poses;
+    std::vector<BodyVelocity> velocities;
+    std::vector<BodyShape> shapes;
+    std::vector<BodyProperties> properties;
+    std::vector<BodyLoad> loads;
+    std::vector<BodyInertia> inertias;
+    std::vector<BodyWarmStart> warm_starts;
+    std::vector<BodyDelta> deltas;
+    std::vector<ContactConstraint> constraints;
+    std::vector<uint> counters;
+};
+
+template <typename T> void expect_same(const std::vector<T>& one, const std::vector<T>& lanes, const char* what) {
+    for (std::size_t i = 0; i < one.size(); ++i)
+        EXPECT_EQ(std::memcmp(&one[i], &lanes[i], sizeof(T)), 0) << what << ' ' << i;
+}
+
+void expect_same(const Items& one, const Items& lanes) {
+    expect_same(one.velocities, lanes.velocities, "velocity");
+    expect_same(one.deltas, lanes.deltas, "movement");
+    expect_same(one.warm_starts, lanes.warm_starts, "warm start");
+    expect_same(one.constraints, lanes.constraints, "constraint");
+    expect_same(one.poses, lanes.poses, "pose");
+    expect_same(one.counters, lanes.counters, "counter");
+}
+
+std::vector<uint> first_items(uint count) {
+    std::vector<uint> indices;
+    for (uint i = 0; i < count; ++i)
+        indices.push_back(count - 1 - i); // any order will do
+    return indices;
+}
+
+/// Treats the items in parts, and returns how many were left to `one`.
+template <typename Pass, typename One>
+uint treat(const LanePasses& passes, const std::vector<uint>& indices, const Pass& pass, const One& one) {
+    uint left = 0;
+    for (uint first = 0; first < indices.size(); first += passes.lanes) {
+        const uint count = min(passes.lanes, static_cast<uint>(indices.size()) - first);
+        for (uint bits = pass(&indices[first], count); bits != 0; bits &= bits - 1, ++left)
+            one(indices[first + static_cast<uint>(findLSB(bits))]);
+    }
+    return left;
+}
+
+TEST(Lanes, pass_over_contacts_with_the_bits_of_one_at_a_time) {
+    const FlushDenormals flush;
+    for (const LanePasses* passes : all_lane_passes()) {
+        for (const ContactPass pass :
+             {ContactPass::WarmStart, ContactPass::Solve, ContactPass::SolveAgain, ContactPass::Relax}) {
+            for (const uint count : {1u, 3u, 4u, 5u, 8u, 9u, Items::k_count}) {
+                for (const float restitution : {0.0f, 0.5f}) {
+                    SCOPED_TRACE(std::to_string(passes->lanes) + " lanes, pass " +
+                                 std::to_string(static_cast<uint>(pass)) + ", " + std::to_string(count));
+                    Items one(count, restitution), lanes(count, restitution);
+                    CpuState one_state = one.state(), lanes_state = lanes.state();
+                    const std::vector<uint> indices = first_items(count);
+                    for (const uint i : indices)
+                        pass_over_constraint(one_state, pass, 3, i);
+                    const uint left = treat(
+                        *passes, indices,
+                        [&](const uint* part, uint size) {
+                            return passes->over_constraints(lanes_state, pass, 3, part, size);
+                        },
+                        [&](uint i) { pass_over_constraint(lanes_state, pass, 3, i); });
+                    expect_same(one, lanes);
+                    EXPECT_LE(left, restitution > 0.0f ? count : 1u); // hits, and the one that ends non-finite
+                }
+            }
+        }
+    }
+}
+
+TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
+    const FlushDenormals flush;
+    for (const LanePasses* passes : all_lane_passes()) {
+        for (const uint substep : {0u, 1u, 2u, 3u, 8u, 9u}) {
+            for (const uint count : {1u, 7u, 8u, 2 * Items::k_count + 1}) {
+                SCOPED_TRACE(std::to_string(passes->lanes) + " lanes, sub-step " + std::to_string(substep));
+                Items one(count, 0.0f), lanes(count, 0.0f);
+                CpuState one_state = one.state(), lanes_state = lanes.state();
+                const std::vector<uint> indices = first_items(count);
+                for (const uint i : indices)
+                    integrate_body(one_state, i, substep);
+                treat(
+                    *passes, indices,
+                    [&](const uint* part, uint size) { return passes->over_bodies(lanes_state, substep, part, size); },
+                    [&](uint i) { integrate_body(lanes_state, i, substep); });
+                expect_same(one, lanes);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace talus::engine
