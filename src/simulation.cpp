@@ -189,6 +189,10 @@ void Simulation::reserve_hub_manifolds(uint count) {
 
 void Simulation::write_bytes(BufferId buffer, std::size_t offset, std::span<const std::byte> bytes) {
     TALUS_ASSERT(pending.empty(), "a buffer was to be written while steps are on their way");
+    write_behind_steps(buffer, offset, bytes);
+}
+
+void Simulation::write_behind_steps(BufferId buffer, std::size_t offset, std::span<const std::byte> bytes) {
     placement.resolution->write(buffer, offset, bytes);
     if (placement.hybrid()) placement.detection->write(buffer, offset, bytes);
 }
@@ -226,7 +230,7 @@ void Simulation::read_state(std::span<const ReadRequest> requests) {
 
 void Simulation::write_body_count(uint slots) {
     if (slots == enqueued_slots) return;
-    write_bytes(BufferId::Counters, k_counter_body_count * sizeof(uint), std::as_bytes(std::span(&slots, 1)));
+    write_behind_steps(BufferId::Counters, k_counter_body_count * sizeof(uint), std::as_bytes(std::span(&slots, 1)));
     enqueued_slots = slots;
 }
 

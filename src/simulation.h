@@ -88,7 +88,10 @@ private:
     };
 
     std::uint64_t launch_count() const;
+    /// With nothing on its way.
     void write_bytes(BufferId, std::size_t offset, std::span<const std::byte>);
+    /// For the steps that follow; those on their way do not see it.
+    void write_behind_steps(BufferId, std::size_t offset, std::span<const std::byte>);
     void enqueue(Pending);
     /// With nothing on its way.
     void apply_now(const Population&, const BodyChanges&);

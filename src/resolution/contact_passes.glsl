@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: MIT
 // A contact constraint in an invocation's hand, and the passes over it. Before this file the kernel defines
-//   uint slot_of(uint body), where a body's velocity, delta and warm start are found
-//   BodyVelocity load_velocity(uint slot), void store_velocity(uint slot, BodyVelocity velocity)
-//   the same for BodyDelta and BodyWarmStart, with delta and warm_start in their names
+//   uint slot_of(uint body), where a body's velocity is found
+//   BodyVelocity load_velocity(uint slot)
+//   void store_velocity(uint slot, BodyVelocity velocity)
 //   const bool k_bounces, whether there may be a restitution above 0
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
-// Reads: Inertias. Reads and writes: Constraints (their impulses).
+// Reads: Inertias, Deltas. Reads and writes: Constraints (their impulses), WarmStarts.
 
 layout(std430) buffer Constraints { ContactConstraintCells constraints[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) coherent buffer Deltas { BodyDeltaCells deltas[]; };
+layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
+
+// A coherent block's member is no argument: NVIDIA's compiler refuses it.
+BodyDelta load_delta(uint body)
+{
+    BodyDeltaCells delta = deltas[body];
+    return unpack(delta);
+}
+
+BodyWarmStart load_warm_start(uint body)
+{
+    BodyWarmStartCells warm = warm_starts[body];
+    return unpack(warm);
+}
 
 const uint k_warm_start = 0u;
 const uint k_solve = 1u;       // with bias
@@ -29,8 +44,11 @@ vec4 base_separation;
 ManifoldRows rows;
 ManifoldImpulses impulses;
 
-void hold_constraint(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)
+void take_constraint(uint index)
 {
+    ContactConstraint c = unpack(constraints[index]);
+    BodyInertia inertia_a = unpack(inertias[c.body_a]);
+    BodyInertia inertia_b = unpack(inertias[c.body_b]);
     body_a = c.body_a;
     body_b = c.body_b;
     slot_a = slot_of(body_a);
@@ -43,12 +61,6 @@ void hold_constraint(ContactConstraint c, BodyInertia inertia_a, BodyInertia ine
     impulses = make_impulses(c);
 }
 
-void take_constraint(uint index)
-{
-    ContactConstraint c = unpack(constraints[index]);
-    hold_constraint(c, unpack(inertias[c.body_a]), unpack(inertias[c.body_b]));
-}
-
 // In the last cells of the record: see ContactConstraint.
 void put_back_impulses(uint index)
 {
@@ -58,50 +70,56 @@ void put_back_impulses(uint index)
     constraints[index].cell_14 = floatBitsToUint(impulses.total);
 }
 
-struct DeltaPair {
-    BodyDelta a;
-    BodyDelta b;
-};
-
-DeltaPair load_deltas() { return DeltaPair(load_delta(slot_a), load_delta(slot_b)); }
-
-PassTarget target_of_pass(uint pass, DeltaPair moved)
+PassTarget target_of_pass(uint pass)
 {
+    BodyDelta delta_a = load_delta(body_a);
+    BodyDelta delta_b = load_delta(body_b);
     Substep substep = make_substep(substeps, is_against_static(traits), parameters);
     bool moves = pass != k_relax && is_against_static(traits);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == k_solve ? 0.0 : 1.0;
     target.moved_since = pass == k_relax;
-    target.slip = measure_slip(rows.meeting, gap_at_start, traits, moved.a, moved.b);
+    target.slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     target.half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
-    target.normal = make_normal_target(current_separations(rows, base_separation, traits, moved.a, moved.b), rows,
+    target.normal = make_normal_target(current_separations(rows, base_separation, traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != k_relax, substep, parameters);
     if (pass == k_relax) target.normal.lower = least_relaxed(rows, base_separation, impulses, substep.soft);
     return target;
 }
 
-VelocityPair load_velocities() { return VelocityPair(load_velocity(slot_a), load_velocity(slot_b)); }
+ManifoldState begin_pass()
+{
+    ManifoldState s;
+    s.velocities.a = load_velocity(slot_a);
+    s.velocities.b = load_velocity(slot_b);
+    s.impulses = impulses;
+    s.is_hit = false;
+    return s;
+}
 
-void put_hit(uint slot, BodyVelocity before, BodyVelocity after, float time)
+void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
 {
     if (before.inverse_mass == 0.0) return;
-    store_warm_start(slot, take_hit(load_warm_start(slot), before, after, time));
+    BodyWarmStart warm = load_warm_start(body);
+    warm_starts[body] = pack(take_hit(warm, before, after, time));
     groupMemoryBarrier(); // the body's own invocation reads it
 }
 
 // Instead of the pass that has found the hit, whose result was not put back.
-ManifoldState pass_over_hit(uint index, ManifoldState before, float old_share)
+ManifoldState pass_over_hit(uint index, float old_share)
 {
-    DeltaPair moved = load_deltas();
-    Slip slip = measure_slip(rows.meeting, gap_at_start, traits, moved.a, moved.b);
+    BodyDelta delta_a = load_delta(body_a);
+    BodyDelta delta_b = load_delta(body_b);
+    Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     Substep substep = make_substep(substeps, is_against_static(traits), parameters);
-    vec4 separations = current_separations(rows, base_separation, traits, moved.a, moved.b);
+    vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
     vec4 closing = closing_speeds(separations, substep.inv_h);
+    ManifoldState before = begin_pass();
     Hit hit = solve_hit(before.velocities, rows, slip, closing, substep.inv_h, parameters);
     if (!is_finite_pair(hit.velocities)) return before;
-    put_hit(slot_a, before.velocities.a, hit.velocities.a, hit.time);
-    put_hit(slot_b, before.velocities.b, hit.velocities.b, hit.time);
+    put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
+    put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
     constraints[index].cell_15 = floatBitsToUint(uintBitsToFloat(constraints[index].cell_15) + hit.impulse);
     return end_hit(before, hit, old_share);
 }
@@ -123,9 +141,9 @@ void put_velocities(uint index, VelocityPair before, VelocityPair after)
 }
 
 // One pass over the constraint in hand, whose index it is.
-void pass_over_constraint(uint pass, uint index, PassTarget target, VelocityPair velocities)
+void pass_over_constraint(uint pass, uint index, PassTarget target)
 {
-    ManifoldState before = ManifoldState(velocities, impulses, false);
+    ManifoldState before = begin_pass();
     if (pass == k_warm_start) {
         put_velocities(index, before.velocities, warm_start_manifold(before.velocities, rows, impulses));
         return;
@@ -133,7 +151,7 @@ void pass_over_constraint(uint pass, uint index, PassTarget target, VelocityPair
     ManifoldState solved = solve_manifold(before, rows, target);
     if (k_bounces && solved.is_hit) {
         if (pass == k_relax) return; // the next step's
-        ManifoldState hit = pass_over_hit(index, before, target.old_share);
+        ManifoldState hit = pass_over_hit(index, target.old_share);
         impulses = hit.impulses;
         put_velocities(index, before.velocities, hit.velocities);
     } else if (is_finite_pair(solved.velocities)) {

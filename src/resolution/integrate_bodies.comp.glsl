@@ -20,9 +20,10 @@ layout(std430) buffer Counters { uint counters[]; };
 
 uint slot_of(uint body) { return body; }
 BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
+BodyDelta load_delta(uint body) { return unpack(deltas[body]); }
+BodyWarmStart load_warm_start(uint body) { return unpack(warm_starts[body]); }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 
-#include "resolution/motion_in_buffers.glsl"
 #include "resolution/body_passes.glsl"
 
 void main()
@@ -30,5 +31,5 @@ void main()
     uint body = item_index();
     if (body >= parameters.body_count) return;
     bool is_grouped = (unpack(inertias[body]).traits & k_trait_grouped) != 0u; // a work group does it
-    if (!is_grouped) integrate_body(body, body, args.x);
+    if (!is_grouped) integrate_body(body, args.x);
 }

@@ -21,8 +21,6 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
-layout(std430) buffer Deltas { BodyDeltaCells deltas[]; };
-layout(std430) buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 layout(std430) writeonly buffer HubChanges { HubChange hub_changes[]; };
 
 uint slot_of(uint body) { return body; }
@@ -36,25 +34,7 @@ void put_change(uint index, HubChange change)
     hub_changes[index - colour_offsets[k_first_hub_colour]] = change;
 }
 
-#include "resolution/motion_in_buffers.glsl"
 #include "resolution/contact_passes.glsl"
-
-// All that is needed of the bodies is loaded as soon as it is known which they are: a launch is as long as its loads that
-// wait for each other.
-void pass_over(uint index, uint pass, uint substep)
-{
-    ContactConstraint c = unpack(constraints[index]);
-    if (substep >= c.substeps) return;
-    BodyInertia inertia_a = unpack(inertias[c.body_a]);
-    BodyInertia inertia_b = unpack(inertias[c.body_b]);
-    VelocityPair v = VelocityPair(load_velocity(c.body_a), load_velocity(c.body_b));
-    DeltaPair moved = DeltaPair(load_delta(c.body_a), load_delta(c.body_b));
-    hold_constraint(c, inertia_a, inertia_b);
-    PassTarget target;
-    if (pass != k_warm_start) target = target_of_pass(pass, moved);
-    pass_over_constraint(pass, index, target, v);
-    if (pass != k_warm_start) put_back_impulses(index);
-}
 
 void main()
 {
@@ -65,6 +45,12 @@ void main()
     } else {
         end = min(end, index + 1u);
     }
-    for (; index < end; ++index)
-        pass_over(index, args.y, args.z);
+    for (; index < end; ++index) {
+        if (args.z >= constraints[index].cell_5.w) continue; // its substeps
+        take_constraint(index);
+        PassTarget target;
+        if (args.y != k_warm_start) target = target_of_pass(args.y);
+        pass_over_constraint(args.y, index, target);
+        if (args.y != k_warm_start) put_back_impulses(index);
+    }
 }

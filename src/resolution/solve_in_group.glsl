@@ -9,9 +9,6 @@
 //   const uint k_room, the bodies that there is room for
 //   uint slot_of(uint body), the body's place there; k_room if it is one that nothing moves
 //   const uint k_own_bodies, the most that an invocation has, and uint own_body(uint i), k_none for no body
-//   BodyDelta load_delta(uint slot), void store_delta(uint slot, BodyDelta delta); the same for BodyWarmStart
-//   void clear_motion(uint slot), no delta; void begin_motion(uint body, uint slot), its first warm start; void
-//   end_motion(uint body, uint slot), what is left of both; uint body_at(uint slot), since begin_motion
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen.
 
@@ -43,16 +40,6 @@ void store_velocity(uint slot, BodyVelocity velocity)
     angular[3u * slot + 1u] = velocity.angular.y;
     angular[3u * slot + 2u] = velocity.angular.z;
 }
-
-// As of a body that nothing moves.
-void clear_slot(uint slot)
-{
-    store_velocity(slot, frozen_velocity());
-    clear_motion(slot);
-}
-
-// Of an invocation's body i.
-uint own_slot(uint i) { return gl_LocalInvocationID.x + i * gl_WorkGroupSize.x; }
 
 const bool k_hubs = false; // their islands are solved with a launch for each colour
 void put_change(uint index, HubChange change) {}
@@ -123,7 +110,7 @@ void take(uint index)
 void pass_over_contacts(uint pass, uint substep)
 {
     PassTarget target;
-    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass, load_deltas());
+    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass);
     uint colour_end = colour_offsets[0];
     for (uint colour = 0u; colour < k_max_colours && colour_end < colour_offsets[k_overflow_colour]; ++colour) {
         uint colour_begin = colour_end;
@@ -131,10 +118,10 @@ void pass_over_contacts(uint pass, uint substep)
         if (colour_begin == colour_end) continue;
         while (in_hand >= colour_begin && in_hand < colour_end) {
             uint done = in_hand;
-            if (substep < substeps) pass_over_constraint(pass, in_hand, target, load_velocities());
+            if (substep < substeps) pass_over_constraint(pass, in_hand, target);
             take(in_hand + gl_WorkGroupSize.x);
             if (in_hand <= done) break; // that was the last one: the next pass begins with the first
-            if (pass != k_warm_start) target = target_of_pass(pass, load_deltas());
+            if (pass != k_warm_start) target = target_of_pass(pass);
         }
         barrier();
     }
@@ -146,8 +133,8 @@ void pass_over_contacts(uint pass, uint substep)
         in_hand = k_none;
         for (uint index = colour_offsets[k_overflow_colour]; index < overflow_end; ++index) {
             take_constraint(index);
-            if (pass != k_warm_start) target = target_of_pass(pass, load_deltas());
-            if (substep < substeps) pass_over_constraint(pass, index, target, load_velocities());
+            if (pass != k_warm_start) target = target_of_pass(pass);
+            if (substep < substeps) pass_over_constraint(pass, index, target);
             put_back_impulses(index);
         }
         take(first_index);
@@ -158,17 +145,17 @@ void pass_over_contacts(uint pass, uint substep)
 void solve_group(uint group)
 {
     uint me = gl_LocalInvocationID.x;
-    if (me == 0u) most_substeps = 0u;
-    for (uint slot = me; slot <= k_room; slot += gl_WorkGroupSize.x)
-        clear_slot(slot);
+    if (me == 0u) {
+        most_substeps = 0u;
+        store_velocity(k_room, frozen_velocity());
+    }
     barrier();
     uint own_bodies = 0u; // a bit for each
     for (uint i = 0u; i < k_own_bodies; ++i) {
         uint body = own_body(i);
         if (body == k_none) continue;
         own_bodies |= 1u << i;
-        store_velocity(own_slot(i), unpack(velocities[body]));
-        begin_motion(body, own_slot(i));
+        store_velocity(slot_of(body), unpack(velocities[body]));
         atomicMax(most_substeps, unpack(inertias[body]).substeps);
     }
     find_colours(group);
@@ -181,7 +168,7 @@ void solve_group(uint group)
 
     for (uint substep = 0u; substep <= last; ++substep) {
         for (uint i = 0u; own_bodies >> i != 0u; ++i) {
-            if (((own_bodies >> i) & 1u) == 1u) integrate_body(body_at(own_slot(i)), own_slot(i), substep);
+            if (((own_bodies >> i) & 1u) == 1u) integrate_body(own_body(i), substep);
         }
         groupMemoryBarrier();
         barrier();
@@ -194,9 +181,7 @@ void solve_group(uint group)
 
     if (in_hand != k_none) put_back_impulses(in_hand);
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
-        if (((own_bodies >> i) & 1u) == 0u) continue;
-        uint body = body_at(own_slot(i));
-        velocities[body] = pack(load_velocity(own_slot(i)));
-        end_motion(body, own_slot(i));
+        uint body = own_body(i);
+        if (((own_bodies >> i) & 1u) == 1u) velocities[body] = pack(load_velocity(slot_of(body)));
     }
 }

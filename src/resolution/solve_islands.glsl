@@ -18,11 +18,9 @@
 layout(local_size_x = 384) in; // most islands have no more manifolds; with more, registers get short
 
 layout(std430) readonly buffer Islands { uint islands[]; };
-layout(std430) coherent buffer Deltas { BodyDeltaCells deltas[]; };
-layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 
 const uint k_room = k_island_bodies;
-uint slot_of(uint body) { return body; }
+uint slot_of(uint body) { return islands[body] == k_none ? k_room : body; }
 
 const uint k_own_bodies = (k_island_bodies + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
 uint own_body(uint i)
@@ -30,13 +28,6 @@ uint own_body(uint i)
     uint body = gl_LocalInvocationID.x + i * gl_WorkGroupSize.x;
     return body < parameters.body_count && islands[body] == group_index() ? body : k_none;
 }
-uint body_at(uint slot) { return slot; }
-
-#include "resolution/motion_in_buffers.glsl"
-
-void clear_motion(uint slot) {}
-void begin_motion(uint body, uint slot) {}
-void end_motion(uint body, uint slot) {}
 
 #include "resolution/solve_in_group.glsl"
 
