@@ -33,15 +33,15 @@ inline ContactReport make_report(Manifold manifold, uint phase)
     return report;
 }
 
-inline ContactReport add_point(ContactReport report, ManifoldPoint point, float normal_impulse)
+// Point i, after those before it.
+inline ContactReport add_point(ContactReport report, int i, ManifoldPoint point, float normal_impulse)
 {
     ContactReport longer = report;
-    uint i = report.point_count;
     longer.x[i] = point.position.x;
     longer.y[i] = point.position.y;
     longer.z[i] = point.position.z;
     longer.separation[i] = point.separation;
     longer.normal_impulse[i] = normal_impulse;
-    longer.point_count = i + 1u;
+    longer.point_count = report.point_count + 1u;
     return longer;
 }

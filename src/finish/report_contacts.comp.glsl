@@ -39,10 +39,11 @@ void main()
     if (is_active(manifold)) impulse = unpack(contact_impulses[pair]).normal_impulse;
     ContactReport report = make_report(manifold, touched ? k_phase_persist : k_phase_begin);
     bool touches = false;
-    for (uint i = 0u; i < manifold.point_count; ++i) {
+    for (uint i = 0u; i < 4u; ++i) {
+        if (i >= manifold.point_count) continue;
         ManifoldPoint point = unpack(manifold_points[4u * pair + i]);
         touches = touches || touches_at(point.separation, impulse[i], touched);
-        report = add_point(report, point, impulse[i]);
+        report = add_point(report, int(i), point, impulse[i]);
     }
     if (!touches) return;
     contact_states[pair] = k_contact_touches;

@@ -22,7 +22,7 @@ static void report_contacts_on_cpu(CpuState& state, const Launch& launch) {
         for (uint i = 0; i < manifold.point_count; ++i) {
             const ManifoldPoint& point = state.manifold_points[std::size_t{4} * pair + i];
             touches = touches || touches_at(point.separation, impulse[static_cast<int>(i)], touched);
-            report = add_point(report, point, impulse[static_cast<int>(i)]);
+            report = add_point(report, static_cast<int>(i), point, impulse[static_cast<int>(i)]);
         }
         if (!touches) continue;
         state.contact_states[pair] = k_contact_touches;

@@ -36,13 +36,17 @@ void main()
     ContactConstraint c =
         begin_constraint(manifold, manifold_index, colour, unpack(velocities[manifold.body_a]).inverse_mass,
                          unpack(velocities[manifold.body_b]).inverse_mass, inertia_a, inertia_b);
-    for (uint i = 0u; i < manifold.point_count; ++i)
+    for (uint i = 0u; i < 4u; ++i) {
+        if (i >= manifold.point_count) continue;
         c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]));
+    }
     c = end_centre(c, unpack(poses[manifold.body_a]).position, unpack(poses[manifold.body_b]).position);
     Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     NormalResponse response = respond_to_normals(meeting);
-    for (uint i = 0u; i < manifold.point_count; ++i)
+    for (uint i = 0u; i < 4u; ++i) {
+        if (i >= manifold.point_count) continue;
         c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), meeting, response);
+    }
     constraints[index] = pack(c);
 }

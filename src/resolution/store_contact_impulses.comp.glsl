@@ -28,7 +28,8 @@ void main()
     if (index >= counters[k_counter_manifold_count]) return;
     ContactConstraint c = unpack(constraints[index]);
     vec4 impulse = vec4(0.0);
-    for (uint i = 0u; i < c.point_count; ++i) {
+    for (uint i = 0u; i < 4u; ++i) {
+        if (i >= c.point_count) continue;
         float of_step = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], c.substeps);
         manifold_points[4u * c.manifold + i].cell_2.w = floatBitsToUint(of_step); // its normal_impulse
         impulse[i] = of_step;
