@@ -138,10 +138,9 @@ void Painter::paint(const View& camera, const Drawing& drawing) {
         set(program, "transparent_static", drawing.transparent_static ? 1 : 0);
     }
     enable(GL_CULL_FACE, !drawing.wireframe);
-    enable(GL_SAMPLE_ALPHA_TO_COVERAGE, drawing.transparent_static);
+    glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE); // what is transparent needs no order then
     draw_boxes(box, drawing);
     glEnable(GL_CULL_FACE);
-    glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     draw_spheres(sphere, drawing);
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 

@@ -158,6 +158,8 @@ TEST(Pick, takes_the_nearest_body) {
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->body, near);
     EXPECT_NEAR(hit->distance, 3.5f, k_near);
+    world.set_sensor(near, true);
+    EXPECT_NEAR(pick(world, {{}, {0.0f, 0.0f, -1.0f}})->distance, 8.5f, k_near) << "the body behind a sensor";
     EXPECT_FALSE(pick(world, {{}, {1.0f, 0.0f, 0.0f}}));
 }
 

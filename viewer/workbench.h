@@ -44,14 +44,15 @@ public:
     void advance(std::chrono::duration<double> elapsed, const Ray& pointer);
 
     // ---- by hand ----
-    /// Whether there was a body to take hold of.
+    /// Whether there was a body to take hold of; a kinematic one is driven from then on instead.
     bool take_hold(const Ray&);
     void let_go();
     void reach(float notches); ///< what is held: farther (positive) or nearer
     void shoot(const Ray&);
     void drop_box(const Ray&);
-    void add_platform(const Ray&);
-    /// Moves the first kinematic body in camera axes, each from -1 to 1: right, up, away.
+    void add_platform(const Ray&); ///< which the keys drive from then on
+    /// Moves the kinematic body that was clicked at or added last, otherwise the first, in camera axes, each from -1 to
+    /// 1: right, up, away.
     void drive(glm::vec3 direction);
     void remove_body(const Ray&);
     void look_at(const Ray&);
@@ -79,13 +80,17 @@ public:
     }
 
 private:
+    /// Before another world comes: nothing is held or driven.
+    void let_all_go();
+    void drive_from_now_on(BodyId);
     std::filesystem::path next_file(const std::string& ending) const;
 
     std::string newest_message;
     std::chrono::steady_clock::time_point message_time;
     std::filesystem::path newest_snapshot, video_file;
     float grip_depth = 0.0f; ///< m, along the camera's direction
-    Vec3 driven_velocity;
+    BodyId driven;           ///< by the keys; may be gone
+    Vec3 driven_velocity;    ///< that it was given
     bool is_new_scene = true;
 };
 
