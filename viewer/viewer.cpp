@@ -93,6 +93,7 @@ private:
 
     void key_pressed(int key, bool, bool control, bool repeated) override {
         busy_frames = k_frames_after_input;
+        ui.note_key(key);
         if (!ui.wants_keyboard()) press_key(key, control, repeated, {bench, window, pointer()});
     }
     void mouse_pressed(MouseButton, bool shift) override;
