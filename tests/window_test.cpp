@@ -433,6 +433,24 @@ TEST_F(WindowWithoutScreen, says_how_to_do_without) {
     }
 }
 
+TEST_F(WindowWithoutScreen, tells_how_fast_its_pictures_can_be_made) {
+    const Ending ending = shell("unset DISPLAY WAYLAND_DISPLAY; talus view stack:height=2 --offscreen --device cpu "
+                                "--seconds 0.5 --width 320 --height 180");
+    EXPECT_EQ(ending.status, 0) << ending.errors;
+    EXPECT_TRUE(ending.output.starts_with("3 bodies, 320 × 180 pixels, ")) << ending.output;
+    int frames = 0;
+    double seconds = 0.0, rate = 0.0, work = 0.0, played = 0.0;
+    ASSERT_EQ(std::sscanf(ending.output.c_str() + ending.output.find('\n'),
+                          " %d frames in %lf s: %lf frames/s, %lf ms of work a frame, %lf", &frames, &seconds, &rate,
+                          &work, &played),
+              5)
+        << ending.output;
+    EXPECT_GE(seconds, 0.5);
+    EXPECT_NEAR(played, rate / 60.0, 0.02) << "a step of 1/60 s each";
+    EXPECT_NE(ending.output.find("longest"), std::string::npos);
+    EXPECT_TRUE(folder_is_empty());
+}
+
 TEST_F(WindowWithoutScreen, bad_usage_ends_with_2) {
     EXPECT_EQ(talus("view stack --width 0").status, 2);
     EXPECT_EQ(talus("view stack --show wires").status, 2);

@@ -15,7 +15,9 @@
 
 #include "cli/interrupt.h"
 #include "cli/words.h"
+#include "viewer/frame_times.h"
 #include "viewer/keys.h"
+#include "viewer/offscreen.h"
 #include "viewer/panels.h"
 #include "viewer/ui.h"
 #include "viewer/window.h"
@@ -32,6 +34,10 @@ constexpr int k_frames_after_input = 4;
 constexpr float k_haste = 4.0f;                                 // with Shift, flying is so much faster
 constexpr double k_idle_wait = 0.25;                            // s
 constexpr std::chrono::duration<double> k_longest_elapsed{0.1}; // after a halt, time is not made up for
+
+double simulated_seconds(const World& world) {
+    return static_cast<double>(world.step_count()) * world.settings().dt;
+}
 
 class Viewer : InputHandler {
 public:
@@ -53,8 +59,7 @@ public:
     void run(std::optional<double> seconds) {
         const Clock::time_point start = Clock::now();
         Clock::time_point last = start;
-        std::uint64_t frames = 0;
-        std::chrono::duration<double> work{0.0};
+        FrameTimes frames;
         while (!window.should_close()) {
             if (seconds && std::chrono::duration<double>(last - start).count() >= *seconds) break;
             if (bench.session.running || busy_frames > 0)
@@ -66,19 +71,13 @@ public:
             const auto elapsed = std::min(std::chrono::duration<double>(now - last), k_longest_elapsed);
             last = now;
             if (busy_frames > 0) --busy_frames;
+            frames.begin();
             frame(elapsed);
-            ++frames;
-            work += Clock::now() - now;
+            frames.end_work();
             // Where the system does not wait for the screen's refresh, as without a screen.
             std::this_thread::sleep_until(now + std::chrono::duration<double>(0.95 / window.refresh_rate()));
         }
-        if (seconds) {
-            const double shown = std::chrono::duration<double>(last - start).count();
-            fmt::print(
-                "{} frames in {:.1f} s: {:.1f} frames/s, {:.2f} ms of work a frame, {:.2f} × real time\n", frames,
-                shown, static_cast<double>(frames) / shown, 1.0e3 * work.count() / static_cast<double>(frames),
-                static_cast<double>(bench.session.world().step_count()) * bench.session.world().settings().dt / shown);
-        }
+        if (seconds) fmt::print("{}", frames.summary(simulated_seconds(bench.session.world())));
         bench.display.finish_video(); // here its error ends the program: there is no window any more to tell it
     }
 
@@ -197,7 +196,9 @@ void Viewer::frame(std::chrono::duration<double> elapsed) {
         render::add_arrow(lines, pull->first, pull->second, render::pack_colour({1.0f, 0.9f, 0.2f}));
     const bool was_recording = bench.display.is_recording();
     bench.attempt([&] {
-        bench.display.draw(bench.session, bench.camera.camera(), region, window.content_scale(), lines);
+        bench.display.draw(bench.session, bench.camera.camera(), region.width, region.height, window.content_scale(),
+                           lines);
+        bench.display.show(region);
         if (was_recording && !bench.display.is_recording()) bench.say("the picture's size has changed: the video ends");
         if (was_running) bench.display.record();
     });
@@ -213,7 +214,10 @@ void Viewer::frame(std::chrono::duration<double> elapsed) {
 } // namespace
 
 void run_viewer(const ViewOptions& options) {
-    Viewer(options).run(options.seconds);
+    if (options.offscreen)
+        run_offscreen(options);
+    else
+        Viewer(options).run(options.seconds);
 }
 
 } // namespace talus::viewer
