@@ -34,13 +34,19 @@ Colour colour_at(const render::Picture& picture, int x, int y) {
     return {picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]};
 }
 
-/// Pixels right of the panels for which the condition holds.
-template <typename Condition> int count_pixels(const render::Picture& picture, const Condition& condition) {
+/// Pixels between two columns for which the condition holds.
+template <typename Condition>
+int count_between(int left, int right, const render::Picture& picture, const Condition& condition) {
     int count = 0;
     for (int y = 0; y < static_cast<int>(picture.height); ++y)
-        for (int x = k_panel; x < static_cast<int>(picture.width); ++x)
+        for (int x = left; x < right; ++x)
             count += condition(colour_at(picture, x, y));
     return count;
+}
+
+/// Right of the panels.
+template <typename Condition> int count_pixels(const render::Picture& picture, const Condition& condition) {
+    return count_between(k_panel, static_cast<int>(picture.width), picture, condition);
 }
 
 bool is_green(const Colour& c) {
@@ -153,6 +159,9 @@ TEST_F(WindowOnScreen, runs_pauses_steps_and_steps_back_to_the_same_bits) {
     ASSERT_TRUE(reaches_step(30));
     window.press("space");
     ASSERT_TRUE(shows("paused"));
+    const render::Picture graphs = look("graphs");
+    const auto is_turquoise = [](const Colour& c) { return c.blue > 200 && c.green > 150 && c.red < 60; };
+    EXPECT_GT(count_between(0, k_panel, graphs, is_turquoise), 150) << "the time of the stage solve";
     // What a run without a window gives.
     World shown = saved_world();
     World plain({}, options_on(DeviceKind::Cpu));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "cli/timed_run.h"
 #include "render/overlay_lines.h"
 #include "viewer/panels.h"
 
@@ -32,7 +33,10 @@ void plot_stages(const Measurements& m) {
     ImDrawList& graph = *ImGui::GetWindowDrawList();
     graph.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
     const std::size_t steps = m.step_ms.values().size();
-    const float width = size.x / static_cast<float>(steps), most = std::max(m.step_ms.largest(), 1.0e-6f);
+    const float width = size.x / static_cast<float>(steps);
+    const std::vector<double> times(m.step_ms.values().begin(), m.step_ms.values().end());
+    // A step that took very long once is cut off: else all others would be flat.
+    const float most = std::max(1.3f * static_cast<float>(cli::statistics_of(times).p95), 1.0e-6f);
     for (std::size_t step = 0; step < steps; ++step) {
         const float left = corner.x + width * static_cast<float>(step);
         float below = corner.y + size.y;
