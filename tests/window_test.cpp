@@ -214,6 +214,9 @@ TEST_F(WindowOnScreen, shoots_drops_removes_and_drives) {
     ASSERT_TRUE(shows("5 bodies"));
     window.press("k");
     ASSERT_TRUE(shows("6 bodies"));
+    window.move_mouse(k_middle_x + 120, k_middle_y + 120);
+    window.press("k"); // the newest is driven
+    ASSERT_TRUE(shows("7 bodies"));
     const World before = saved_world();
     window.hold("Right", true);
     window.press("space");
@@ -221,10 +224,13 @@ TEST_F(WindowOnScreen, shoots_drops_removes_and_drives) {
     look("thrown");
     window.hold("Right", false);
     const World after = saved_world();
-    const Vec3 from = before.pose(find(before, BodyKind::Kinematic)).position;
-    const Vec3 to = after.pose(find(after, BodyKind::Kinematic)).position;
+    const BodyId first = find(before, BodyKind::Kinematic), driven = before.bodies().back();
+    ASSERT_EQ(before.kind(driven), BodyKind::Kinematic);
+    ASSERT_NE(driven, first);
+    const Vec3 from = before.pose(driven).position, to = after.pose(driven).position;
     EXPECT_GT(std::hypot(to.x - from.x, to.z - from.z), 1.0f);
     EXPECT_EQ(to.y, from.y);
+    EXPECT_EQ(after.pose(first).position, before.pose(first).position);
     window.press("r");
     EXPECT_TRUE(shows("4 bodies"));
 }

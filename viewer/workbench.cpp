@@ -108,12 +108,8 @@ void Workbench::advance(std::chrono::duration<double> elapsed, const Ray& pointe
         const float along = glm::dot(pointer.direction, camera.forward());
         if (along > 0.05f) hand.pull_to(place_on(pointer, grip_depth / along));
     }
-    try {
-        session.advance(display.is_recording() ? Display::k_frame_time : elapsed);
-    } catch (const Error& error) {
+    if (!attempt([&] { session.advance(display.is_recording() ? Display::k_frame_time : elapsed); }))
         session.running = false;
-        say(error.what());
-    }
 }
 
 // ---- by hand ----

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <new>
 #include <string>
 
 #include "viewer/camera_control.h"
@@ -70,13 +71,17 @@ public:
     /// The newest message, or nothing a few seconds after it came.
     std::string message() const;
     void say(const std::string&);
-    /// Does something; where it throws Error, the reason becomes the message.
-    template <typename Action> void attempt(const Action& action) {
+    /// Does something; where it throws Error, or memory is not enough, the reason becomes the message. False then.
+    template <typename Action> bool attempt(const Action& action) {
         try {
             action();
+            return true;
         } catch (const Error& error) {
             say(error.what());
+        } catch (const std::bad_alloc&) {
+            say("there is not enough memory for that");
         }
+        return false;
     }
 
 private:
