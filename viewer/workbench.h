@@ -14,6 +14,18 @@
 
 namespace talus::viewer {
 
+/// Does something. The reason in words where it throws Error or memory is not enough; otherwise nothing.
+template <typename Action> std::string failure_of(const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    } catch (const std::bad_alloc&) {
+        return "there is not enough memory for that";
+    }
+    return {};
+}
+
 class Workbench {
 public:
     Workbench(const std::string& scene, DeviceKind, std::uint32_t threads, Session::Adjust settings);
@@ -71,17 +83,11 @@ public:
     /// The newest message, or nothing a few seconds after it came.
     std::string message() const;
     void say(const std::string&);
-    /// Does something; where it throws Error, or memory is not enough, the reason becomes the message. False then.
+    /// Does something; where it fails, the reason becomes the message. False then.
     template <typename Action> bool attempt(const Action& action) {
-        try {
-            action();
-            return true;
-        } catch (const Error& error) {
-            say(error.what());
-        } catch (const std::bad_alloc&) {
-            say("there is not enough memory for that");
-        }
-        return false;
+        const std::string reason = failure_of(action);
+        if (!reason.empty()) say(reason);
+        return reason.empty();
     }
 
 private:
