@@ -36,7 +36,7 @@ void plot_stages(const Measurements& m) {
     const float width = size.x / static_cast<float>(steps);
     const std::vector<double> times(m.step_ms.values().begin(), m.step_ms.values().end());
     // A step that took very long once is cut off: else all others would be flat.
-    const float most = std::max(1.3f * static_cast<float>(cli::statistics_of(times).p95), 1.0e-6f);
+    const float most = std::max(2.5f * static_cast<float>(cli::statistics_of(times).median), 1.0e-6f);
     for (std::size_t step = 0; step < steps; ++step) {
         const float left = corner.x + width * static_cast<float>(step);
         float below = corner.y + size.y;
