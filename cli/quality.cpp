@@ -47,7 +47,7 @@ void measure_penetration(std::span<const BodySample> bodies, Quality& quality) {
     std::vector<Region> regions;
     std::vector<bool> dynamic;
     for (const BodySample& body : bodies) {
-        if (!is_finite(body)) continue;
+        if (!is_finite(body) || body.sensor) continue;
         shapes.push_back(place(body.shape, body.pose));
         regions.push_back(region_of(shapes.back()));
         dynamic.push_back(body.kind == BodyKind::Rigid);
@@ -74,7 +74,7 @@ std::vector<BodySample> sample_bodies(const World& world) {
     samples.reserve(ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i)
         samples.push_back({world.kind(ids[i]), world.shape(ids[i]), poses[i], velocities[i], world.mass(ids[i]),
-                           world.inertia(ids[i])});
+                           world.inertia(ids[i]), world.is_sensor(ids[i])});
     return samples;
 }
 

@@ -22,11 +22,12 @@ struct BodySample {
     Velocity velocity;
     float mass = 0.0f; ///< kg; not used for static and kinematic bodies
     Vec3 inertia;      ///< principal moments about the body's axes, kg·m²
+    bool sensor = false;
 };
 
 /// Of dynamic bodies, if nothing else is said. Bodies with a non-finite number are counted and otherwise left out.
 struct Quality {
-    double max_penetration = 0.0;  ///< m, of any two bodies of which at least one is dynamic
+    double max_penetration = 0.0;  ///< m, of any two bodies of which at least one is dynamic and neither a sensor
     double mean_penetration = 0.0; ///< m, over the pairs that overlap; 0 where none does
     std::uint64_t overlapping_pairs = 0;
     double max_drift = 0.0;                   ///< m, largest distance of a centre from its start

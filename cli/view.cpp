@@ -35,6 +35,8 @@ void add_view(CLI::App& app, int& status) {
     command->add_option("--seconds", options->seconds, "Close the window after so long, and print the frame rate")
         ->check(CLI::Range(0.1, 1.0e6))
         ->type_name("S");
+    command->add_flag("--offscreen", options->offscreen,
+                      "No window: draw its pictures as fast as can be, a step each, and print the frame rate");
     command->callback([options, &status] {
         viewer::run_viewer(*options);
         status = k_done;

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes docs/images/scenes/: a small picture of each built-in scene. Scenes of the size of a record stand there with fewer
-# bodies. Usage: docs/make_pictures.sh [SCENE]...; on two cores without a GPU all take about ten minutes.
+# Makes the pictures of scenes: a small one of each in docs/images/scenes/, those of the README in docs/images/. Scenes of
+# the size of a record stand there with fewer bodies. Usage: docs/make_pictures.sh [SCENE]...; on two cores without a GPU
+# all take about ten minutes. The picture of the window is the test's (docs/viewer.md says how).
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 
@@ -30,10 +31,26 @@ worlds count=36 60
 END
 }
 
-mkdir -p docs/images/scenes
-while read -r scene parameters steps; do
-    if (($# > 0)) && [[ " $* " != *" $scene "* ]]; then continue; fi
-    ./talus run "$scene:$parameters" --steps "$steps" --quiet --width 480 --height 270 \
-        --image "docs/images/scenes/$scene.png"
-    echo "docs/images/scenes/$scene.png"
-done < <(scenes)
+# the same, of the README
+large_scenes() {
+    cat <<'END'
+pool boxes=600 240
+extreme_stack height=14 120
+END
+}
+
+# make_pictures FOLDER WIDTH HEIGHT [SCENE]... < table
+make_pictures() {
+    local folder=$1 width=$2 height=$3 scene parameters steps
+    shift 3
+    mkdir -p "$folder"
+    while read -r scene parameters steps; do
+        if (($# > 0)) && [[ " $* " != *" $scene "* ]]; then continue; fi
+        ./talus run "$scene:$parameters" --steps "$steps" --quiet --width "$width" --height "$height" \
+            --image "$folder/$scene.png" </dev/null
+        echo "$folder/$scene.png"
+    done
+}
+
+make_pictures docs/images/scenes 480 270 "$@" < <(scenes)
+make_pictures docs/images 960 540 "$@" < <(large_scenes)

@@ -12,9 +12,9 @@ namespace talus::render {
 
 namespace {
 
-engine::BodyShape shape_record(const Shape& shape, BodyKind kind) {
+engine::BodyShape shape_record(const Shape& shape, BodyKind kind, bool sensor) {
     engine::BodyShape record;
-    const std::uint32_t kind_bits = static_cast<std::uint32_t>(kind) << 8;
+    const std::uint32_t kind_bits = static_cast<std::uint32_t>(kind) << 8 | (sensor ? engine::k_sensor_bit : 0u);
     if (const auto* box = std::get_if<Box>(&shape)) {
         record.half_extents = {0.5f * box->size.x, 0.5f * box->size.y, 0.5f * box->size.z};
         record.type = engine::k_shape_box | kind_bits;
@@ -47,7 +47,7 @@ void BodiesToDraw::list_bodies(const World& world) {
     std::vector<engine::BodyShape> shapes(slot_count);
     for (const BodyId id : bodies) {
         const BodyKind kind = world.kind(id);
-        const engine::BodyShape shape = shape_record(world.shape(id), kind);
+        const engine::BodyShape shape = shape_record(world.shape(id), kind, world.is_sensor(id));
         shapes[id.index] = shape;
         ((shape.type & 0xffu) == engine::k_shape_sphere ? spheres : boxes).push_back(id.index);
         (kind == BodyKind::Static ? lengths : movable_lengths).push_back(edge_length(shape));

@@ -28,6 +28,7 @@ public:
     Islands(const World& world, std::span<const Contact> contacts, std::uint32_t slot_count) : leads_to(slot_count) {
         std::iota(leads_to.begin(), leads_to.end(), 0u);
         for (const Contact& contact : contacts) {
+            if (contact.sensor) continue;
             if (world.kind(contact.a) != BodyKind::Rigid || world.kind(contact.b) != BodyKind::Rigid) continue;
             const std::uint32_t a = leader(contact.a.index), b = leader(contact.b.index);
             leads_to[std::max(a, b)] = std::min(a, b);
@@ -92,7 +93,7 @@ void add_contact_lines(std::vector<Line>& lines, const World& world, std::span<c
                 add_arrow(lines, place, place + 2.0f * typical_size * (point.normal_impulse / largest) * normal,
                           pack_colour(k_yellow));
         }
-        if (!overlays.colours) continue;
+        if (!overlays.colours || contact.sensor) continue;
         const std::uint32_t colour = pack_colour(colour_of_number(contact.colour));
         for (const BodyId id : {contact.a, contact.b})
             if (world.kind(id) != BodyKind::Static)

@@ -5,8 +5,8 @@
 
 #include <array>
 #include <cstddef>
-#include <string_view>
 
+#include "device/gl/gl_context.h"
 #include "render/program.h"
 
 namespace talus::render {
@@ -18,14 +18,6 @@ constexpr GLuint k_view = 0;
 constexpr GLuint k_poses = 0, k_shapes = 1, k_slots = 2, k_tints = 3, k_shadow_bounds = 4, k_contacts = 5, k_lines = 6;
 
 constexpr GLsizei k_box_indices = 36;
-
-bool runs_in_software() {
-    const std::string_view renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    for (const char* name : {"llvmpipe", "softpipe", "SwiftShader"}) {
-        if (renderer.find(name) != std::string_view::npos) return true;
-    }
-    return false;
-}
 
 void set(GLuint program, const char* uniform, GLuint value) {
     glProgramUniform1ui(program, glGetUniformLocation(program, uniform), value);
@@ -47,8 +39,9 @@ void enable(GLenum capability, bool on) {
 
 Painter::Painter() {
     // A software renderer pays for every texel that is filled and looked up.
-    shadow_size = runs_in_software() ? 2048 : 4096;
-    shadow_blur = runs_in_software() ? 2.0f : 4.0f;
+    const bool in_software = engine::OpenGlContext::current()->is_software();
+    shadow_size = in_software ? 2048 : 4096;
+    shadow_blur = in_software ? 2.0f : 4.0f;
 
     const auto drawn = {static_cast<GLenum>(GL_VERTEX_SHADER), static_cast<GLenum>(GL_FRAGMENT_SHADER)};
     fit = make_program("fit_shadow", {GL_COMPUTE_SHADER});
@@ -138,10 +131,9 @@ void Painter::paint(const View& camera, const Drawing& drawing) {
         set(program, "transparent_static", drawing.transparent_static ? 1 : 0);
     }
     enable(GL_CULL_FACE, !drawing.wireframe);
-    enable(GL_SAMPLE_ALPHA_TO_COVERAGE, drawing.transparent_static);
+    glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE); // what is transparent needs no order then
     draw_boxes(box, drawing);
     glEnable(GL_CULL_FACE);
-    glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     draw_spheres(sphere, drawing);
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 

@@ -14,7 +14,7 @@
 
 namespace talus::render {
 
-/// Draws one world: static bodies blue, rigid ones green, kinematic ones orange.
+/// Draws one world: static bodies blue, rigid ones green, kinematic ones orange, sensors turquoise and translucent.
 class Renderer {
 public:
     /// Most pictures that may be on their way at once.

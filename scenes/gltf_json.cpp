@@ -9,8 +9,12 @@
 
 namespace talus::scenes {
 
+std::string JsonValue::at(const std::string& reason) const {
+    return place + ": " + reason;
+}
+
 void JsonValue::fail(const std::string& reason) const {
-    throw Error(place + ": " + reason);
+    throw Error(at(reason));
 }
 
 void JsonValue::require_object() const {

@@ -16,7 +16,9 @@ public:
     /// `place` as errors name it: "scene.gltf: node 3 'Cube'". The value must outlive this.
     JsonValue(const nlohmann::json& value, std::string where) : json(&value), place(std::move(where)) {}
 
-    /// Throws Error: place, colon, reason.
+    /// Place, colon, reason.
+    std::string at(const std::string& reason) const;
+    /// Throws Error with that.
     [[noreturn]] void fail(const std::string& reason) const;
 
     /// A member of an object, if there is one. Throws Error where this is no object.

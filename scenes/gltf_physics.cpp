@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads colliders, materials and motions. Defaults are those of the extensions' schemas.
+// Reads colliders, triggers, materials and motions. Defaults are those of the extensions' schemas.
 #include "scenes/gltf_physics.h"
 
 #include <algorithm>
@@ -44,11 +44,12 @@ Shape read_shape(const JsonValue& shape, const Placement& placement, const JsonV
         const auto radius = values ? values->find("radius") : std::nullopt;
         const auto [least, greatest] = std::minmax({placement.scale.x, placement.scale.y, placement.scale.z});
         if (greatest - least > 1e-4 * greatest)
-            collider.fail("its sphere is scaled by different factors along its axes, which makes it an ellipsoid" +
-                          std::string(k_supported));
+            throw UnsupportedShape(
+                collider.at("its sphere is scaled by different factors along its axes, which makes it an ellipsoid" +
+                            std::string(k_supported)));
         return Sphere{length((radius ? radius->number() : 0.5) * placement.scale.x, shape, "the sphere's radius")};
     }
-    collider.fail("its shape is a " + type + k_supported);
+    throw UnsupportedShape(collider.at("its shape is a " + type + k_supported));
 }
 
 Shape read_geometry(const JsonValue& collider, const Placement& placement, const GltfTables& tables) {
@@ -58,8 +59,9 @@ Shape read_geometry(const JsonValue& collider, const Placement& placement, const
         if (!geometry.find(key)) continue;
         if (shape) geometry.fail(std::string("names both a shape and a ") + key);
         const auto hull = geometry.find("convexHull");
-        collider.fail(std::string("its shape is ") +
-                      (hull && hull->boolean() ? "the convex hull of a mesh" : "a mesh") + k_supported);
+        throw UnsupportedShape(collider.at(std::string("its shape is ") +
+                                           (hull && hull->boolean() ? "the convex hull of a mesh" : "a mesh") +
+                                           k_supported));
     }
     if (!shape) geometry.fail("names no shape");
     return read_shape(entry(tables.shapes, *shape, tables, "shape", "shapes"), placement, collider);

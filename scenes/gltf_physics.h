@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The parts of KHR_physics_rigid_bodies that stand at one node, read and checked: colliders with their shape and
-// material, and motions.
+// material, triggers, which are colliders without a material, and motions.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +23,12 @@ struct GltfTables {
     GltfTables(const JsonValue& document, std::string file);
 };
 
+/// Of a shape that Talus does not have.
+class UnsupportedShape : public Error {
+public:
+    using Error::Error;
+};
+
 struct GltfCollider {
     std::size_t node = 0; ///< position in the list of nodes
     Placement placement;
@@ -41,7 +47,8 @@ struct GltfMotion {
     std::optional<glm::dmat3> inertia;        ///< in world axes, about the centre of mass
 };
 
-/// Empty for a collider which its node's scale of zero turns off. Throws Error for a shape that Talus does not have.
+/// Also of a trigger. Empty for a collider which its node's scale of zero turns off. Throws UnsupportedShape for a
+/// shape that Talus does not have.
 std::optional<GltfCollider> read_collider(const JsonValue& collider, const std::vector<GltfNode>&, std::size_t node,
                                           const GltfTables&);
 

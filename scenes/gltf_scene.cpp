@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From a glTF file to a scene. The rule: what would make the bodies move differently is refused with one error; what
-// only is to be seen (meshes, materials, lights, cameras, skins) is passed over; triggers push nothing and animations
-// move nothing here, so each kind is left out with one warning.
+// only is to be seen (meshes, materials, lights, cameras, skins) is passed over. Triggers become sensors. Those that
+// cannot, push nothing, and animations move nothing here: each kind is left out with one warning.
 #include "scenes/gltf_scene.h"
 
 #include <algorithm>
@@ -26,16 +26,17 @@ namespace {
 
 /// A node's part in the physics.
 struct Role {
-    std::optional<JsonValue> collider, motion;
+    std::optional<JsonValue> collider, trigger, motion;
     std::size_t owner = k_no_node; ///< position of the node whose motion carries this one
 };
 
 /// What is left out with a warning: the names of the nodes that have it.
 struct LeftOut {
-    std::vector<std::string> triggers, without_collider, turned_off, two_frictions;
+    std::vector<std::string> unsupported_triggers, carried_triggers, trigger_filters, without_collider, turned_off,
+        two_frictions;
 };
 
-std::vector<Role> read_roles(const std::vector<GltfNode>& nodes, LeftOut& left_out) {
+std::vector<Role> read_roles(const std::vector<GltfNode>& nodes) {
     std::vector<Role> roles(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const GltfNode& node = nodes[i];
@@ -45,7 +46,7 @@ std::vector<Role> read_roles(const std::vector<GltfNode>& nodes, LeftOut& left_o
         if (!physics) continue;
         if (physics->find("joint"))
             node.json.fail("is a joint; Talus has no joints, and the scene would fall apart without it");
-        if (physics->find("trigger")) left_out.triggers.push_back(node.name);
+        role.trigger = physics->find("trigger");
         role.collider = physics->find("collider");
         role.motion = physics->find("motion");
         if (role.motion) role.owner = i;
@@ -175,38 +176,73 @@ std::vector<std::string> other_physics_extensions(const JsonValue& document) {
     return result;
 }
 
-void read_bodies(Scene& scene, const std::vector<GltfNode>& nodes, const GltfTables& tables, LeftOut& left_out) {
-    const std::vector<Role> roles = read_roles(nodes, left_out);
+/// What belongs to one body: the colliders and triggers of a node without motion, or of all that its motion carries.
+struct Volumes {
+    std::vector<GltfCollider> colliders, triggers;
+};
 
-    std::vector<std::vector<GltfCollider>> carried(nodes.size()); // by the node whose body they belong to
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (!roles[i].collider) continue;
-        std::optional<GltfCollider> collider = read_collider(*roles[i].collider, nodes, i, tables);
-        if (!collider) {
-            left_out.turned_off.push_back(nodes[i].name);
-            continue;
-        }
-        if (collider->two_frictions) left_out.two_frictions.push_back(nodes[i].name);
-        carried[roles[i].owner == k_no_node ? i : roles[i].owner].push_back(*std::move(collider));
+std::optional<GltfCollider> read_trigger(const JsonValue& json, const std::vector<GltfNode>& nodes, std::size_t node,
+                                         const GltfTables& tables, LeftOut& left_out) {
+    try {
+        std::optional<GltfCollider> trigger = read_collider(json, nodes, node, tables);
+        if (trigger && trigger->filter) left_out.trigger_filters.push_back(nodes[node].name);
+        if (!trigger) left_out.turned_off.push_back(nodes[node].name);
+        return trigger;
+    } catch (const UnsupportedShape&) {
+        left_out.unsupported_triggers.push_back(nodes[node].name);
+        return std::nullopt;
     }
+}
 
+std::vector<Volumes> read_volumes(const std::vector<Role>& roles, const std::vector<GltfNode>& nodes,
+                                  const GltfTables& tables, LeftOut& left_out) {
+    std::vector<Volumes> volumes(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        Volumes& volume = volumes[roles[i].owner == k_no_node ? i : roles[i].owner];
+        if (roles[i].collider) {
+            std::optional<GltfCollider> collider = read_collider(*roles[i].collider, nodes, i, tables);
+            if (!collider) left_out.turned_off.push_back(nodes[i].name);
+            if (collider && collider->two_frictions) left_out.two_frictions.push_back(nodes[i].name);
+            if (collider) volume.colliders.push_back(*std::move(collider));
+        }
+        // A compound trigger names nodes in the place of a geometry: those are triggers themselves.
+        if (!roles[i].trigger || (roles[i].trigger->find("nodes") && !roles[i].trigger->find("geometry"))) continue;
+        if (auto trigger = read_trigger(*roles[i].trigger, nodes, i, tables, left_out))
+            volume.triggers.push_back(*std::move(trigger));
+    }
+    return volumes;
+}
+
+void read_bodies(Scene& scene, const std::vector<GltfNode>& nodes, const GltfTables& tables, LeftOut& left_out) {
+    const std::vector<Role> roles = read_roles(nodes);
+    const std::vector<Volumes> volumes = read_volumes(roles, nodes, tables, left_out);
     UniqueNames names;
     std::vector<FilteredBody> filtered;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const std::vector<GltfCollider>& colliders = carried[i];
+        const auto& [colliders, triggers] = volumes[i];
         if (colliders.size() > 1)
             nodes[i].json.fail("its motion carries " + std::to_string(colliders.size()) + " colliders ('" +
                                nodes[colliders[0].node].name + "', '" + nodes[colliders[1].node].name +
                                "'...); a body of Talus has one shape");
         std::optional<GltfMotion> motion;
         if (roles[i].motion) motion = read_motion(*roles[i].motion, nodes[i]);
-        if (colliders.empty()) {
-            if (motion) left_out.without_collider.push_back(nodes[i].name);
-            continue;
+        const GltfMotion* moved_by = motion ? &*motion : nullptr;
+        if (motion && colliders.empty() && triggers.empty()) left_out.without_collider.push_back(nodes[i].name);
+        if (!colliders.empty()) {
+            const BodyDefinition body = make_body(colliders[0], nodes[i], moved_by);
+            scene.bodies.push_back({names.make(nodes[i].name), body});
+            filtered.push_back({colliders[0].filter, body.kind == BodyKind::Rigid, &nodes[i]});
         }
-        const BodyDefinition body = make_body(colliders[0], nodes[i], motion ? &*motion : nullptr);
-        scene.bodies.push_back({names.make(nodes[i].name), body});
-        filtered.push_back({colliders[0].filter, body.kind == BodyKind::Rigid, &nodes[i]});
+        const bool sole_shape = colliders.empty() && triggers.size() == 1;
+        for (const GltfCollider& trigger : triggers) {
+            if (motion && !sole_shape) {
+                left_out.carried_triggers.push_back(nodes[trigger.node].name);
+                continue;
+            }
+            BodyDefinition sensor = make_body(trigger, nodes[i], moved_by);
+            sensor.sensor = true;
+            scene.bodies.push_back({names.make(nodes[i].name), sensor});
+        }
     }
     require_harmless_filters(filtered, tables.filters);
 }
@@ -226,7 +262,7 @@ Scene read_gltf_scene(std::string_view path) {
 
     const std::vector<std::string> others = other_physics_extensions(document);
     if (scene.bodies.empty())
-        document.fail("has no body: no node of its scene has a collider of KHR_physics_rigid_bodies" +
+        document.fail("has no body: no node of its scene has a collider or a trigger of KHR_physics_rigid_bodies" +
                       (others.empty() ? "" : "; it uses " + join(others) + ", which Talus does not read"));
 
     const auto animations = document.find("animations");
@@ -235,9 +271,13 @@ Scene read_gltf_scene(std::string_view path) {
                                  (animations->size() == 1 ? " animation is" : " animations are") +
                                  " left out: only forces, contacts and velocities move bodies");
     if (!others.empty()) scene.warnings.push_back(join(others) + ": left out; only KHR_physics_rigid_bodies is read");
-    warn(scene, left_out.triggers, "trigger", "triggers", "left out: they push nothing");
+    warn(scene, left_out.unsupported_triggers, "trigger", "triggers", "left out: of another shape than box or sphere");
+    warn(scene, left_out.carried_triggers, "trigger", "triggers",
+         "left out: carried by a motion that has another shape; a body of Talus has one");
+    warn(scene, left_out.trigger_filters, "trigger", "triggers",
+         "with a collision filter, which is left out: it reports all bodies");
     warn(scene, left_out.without_collider, "motion", "motions", "left out: no collider, so nothing can touch it");
-    warn(scene, left_out.turned_off, "collider", "colliders", "left out: a scale of 0 turns it off");
+    warn(scene, left_out.turned_off, "shape", "shapes", "left out: a scale of 0 turns it off");
     warn(scene, left_out.two_frictions, "collider", "colliders",
          "with a static friction that differs from the dynamic one: the dynamic one is used for both");
     look_at_bodies(scene);

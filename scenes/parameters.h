@@ -18,14 +18,13 @@ public:
     /// twice, or a value that is not allowed.
     Parameters(const SceneInfo&, std::string_view text);
 
+    double value_of(std::string_view name) const;
     std::uint32_t integer(std::string_view name) const;
     float number(std::string_view name) const;
     /// "height=30,seed=1": every parameter, so that it can be given again.
     std::string text() const;
 
 private:
-    double value_of(std::string_view name) const;
-
     const SceneInfo& info;
     std::vector<double> values;
 };

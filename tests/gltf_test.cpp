@@ -254,21 +254,68 @@ TEST(gltf, what_is_only_to_be_seen_is_passed_over) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST(gltf, what_is_left_out_without_harm_is_named_once) {
-    const std::string trigger = physics(R"("trigger":{"geometry":{"mesh":4}})");
+TEST(gltf, triggers_become_sensors) {
+    const std::string trigger = R"("trigger":{"geometry":{"shape":1}})";
     const Scene scene =
-        read(document("{" + physics(collider()) + R"(},{"name":"door",)" + trigger + R"(},{"name":"gate",)" + trigger +
-                          R"(},{"name":"ghost",)" + physics(R"("motion":{})") + R"(},{"name":"off","scale":[0,0,0],)" +
-                          physics(collider()) + "}",
-                      R"(,"animations":[{}],"extensionsUsed":["OMI_physics_body"])"));
-    EXPECT_EQ(scene.bodies.size(), 1u);
-    EXPECT_EQ(scene.warnings, (std::vector<std::string>{
-                                  "1 animation is left out: only forces, contacts and velocities move bodies",
-                                  "OMI_physics_body: left out; only KHR_physics_rigid_bodies is read",
-                                  "2 triggers (door, gate) left out: they push nothing",
-                                  "1 motion (ghost) left out: no collider, so nothing can touch it",
-                                  "1 collider (off) left out: a scale of 0 turns it off",
-                              }));
+        read(document(R"({"name":"zone","translation":[0,2,0],"scale":[3,3,3],)" + physics(trigger) +
+                      R"(},{"name":"both",)" + physics(collider() + "," + trigger) + R"(},{"name":"probe",)" +
+                      physics(R"("motion":{"isKinematic":true,"linearVelocity":[1,0,0]},)" + trigger) +
+                      R"(},{"name":"compound","children":[4,5],)" + physics(R"("trigger":{"nodes":[4,5]})") +
+                      R"(},{"name":"part 1",)" + physics(trigger) + R"(},{"name":"part 2",)" + physics(trigger) + "}"));
+    ASSERT_EQ(scene.bodies.size(), 6u);
+    const BodyDefinition& zone = scene.bodies[0].definition;
+    EXPECT_TRUE(zone.sensor);
+    EXPECT_EQ(zone.kind, BodyKind::Static);
+    EXPECT_EQ(std::get<Sphere>(zone.shape).radius, 1.5f);
+    expect_near(zone.pose.position, {0.0f, 2.0f, 0.0f});
+    EXPECT_FALSE(scene.bodies[1].definition.sensor);
+    EXPECT_TRUE(scene.bodies[2].definition.sensor);
+    EXPECT_EQ(scene.bodies[2].name, "both (2)");
+    EXPECT_TRUE(scene.bodies[3].definition.sensor);
+    EXPECT_EQ(scene.bodies[3].definition.kind, BodyKind::Kinematic);
+    expect_near(scene.bodies[3].definition.velocity.linear, {1.0f, 0.0f, 0.0f});
+    EXPECT_TRUE(scene.bodies[5].definition.sensor);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(gltf, triggers_report_what_falls_through_them) {
+    const Scene scene = read(document(R"({"translation":[0,-2,0],)" + physics(R"("trigger":{"geometry":{"shape":0}})") +
+                                      "},{" + physics(R"("motion":{},)" + collider("1")) + "}"));
+    WorldOptions options;
+    options.device = DeviceKind::Cpu;
+    World world(scene.settings, options);
+    for (const NamedBody& body : scene.bodies)
+        world.add(body.definition);
+    world.watch_contacts(ContactWatch::Changes);
+    world.step(90);
+    const std::vector<ContactEvent> events = world.take_contact_events();
+    ASSERT_EQ(events.size(), 2u);
+    EXPECT_TRUE(events[0].sensor);
+    EXPECT_EQ(events[0].phase, ContactPhase::Begin);
+    EXPECT_EQ(events[1].phase, ContactPhase::End);
+    EXPECT_LT(world.pose(world.bodies()[1]).position.y, -9.0f); // it fell freely
+}
+
+TEST(gltf, what_is_left_out_without_harm_is_named_once) {
+    const std::string mesh = physics(R"("trigger":{"geometry":{"mesh":4}})");
+    const std::string trigger = R"("trigger":{"geometry":{"shape":0}})";
+    const Scene scene = read(document(
+        "{" + physics(collider()) + R"(},{"name":"door",)" + mesh + R"(},{"name":"gate",)" + mesh +
+            R"(},{"name":"ghost",)" + physics(R"("motion":{})") + R"(},{"name":"off","scale":[0,0,0],)" +
+            physics(collider()) + R"(},{"name":"car",)" + physics(R"("motion":{},)" + collider() + "," + trigger) +
+            R"(},{"name":"picky",)" + physics(R"("trigger":{"geometry":{"shape":0},"collisionFilter":0})") + "}",
+        R"(,"animations":[{}],"extensionsUsed":["OMI_physics_body"])"));
+    EXPECT_EQ(scene.bodies.size(), 3u);
+    EXPECT_EQ(scene.warnings,
+              (std::vector<std::string>{
+                  "1 animation is left out: only forces, contacts and velocities move bodies",
+                  "OMI_physics_body: left out; only KHR_physics_rigid_bodies is read",
+                  "2 triggers (door, gate) left out: of another shape than box or sphere",
+                  "1 trigger (car) left out: carried by a motion that has another shape; a body of Talus has one",
+                  "1 trigger (picky) with a collision filter, which is left out: it reports all bodies",
+                  "1 motion (ghost) left out: no collider, so nothing can touch it",
+                  "1 shape (off) left out: a scale of 0 turns it off",
+              }));
 }
 
 TEST(gltf, filters_are_taken_where_they_keep_nothing_apart) {

@@ -79,11 +79,12 @@ TEST(Guide, has_every_page_in_its_index) {
         }
 }
 
-TEST(Guide, has_a_picture_of_every_scene) {
-    const std::string page = text_of(k_guide / "scenes.md");
+TEST(Guide, has_a_picture_of_every_scene_and_a_script_makes_it) {
+    const std::string page = text_of(k_guide / "scenes.md"), script = text_of(k_guide / "../make_pictures.sh");
     for (const scenes::SceneInfo& scene : scenes::list_scenes()) {
         EXPECT_NE(page.find("(../images/scenes/" + scene.name + ".png)"), std::string::npos) << scene.name;
         EXPECT_TRUE(fs::exists(k_guide / "../images/scenes" / (scene.name + ".png"))) << scene.name;
+        EXPECT_NE(script.find("\n" + scene.name + " "), std::string::npos) << scene.name;
     }
 }
 

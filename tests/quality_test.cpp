@@ -160,6 +160,12 @@ TEST(Quality, penetration_needs_a_dynamic_body) {
     EXPECT_NEAR(stack.mean_penetration, 0.1875, 1e-12);
 }
 
+TEST(Quality, what_lies_in_a_sensor_does_not_overlap) {
+    BodySample sensor = body({0, 0, 0}, BodyKind::Static);
+    sensor.sensor = true;
+    EXPECT_EQ(measure({sensor, body({0, 0.5f, 0})}).overlapping_pairs, 0u);
+}
+
 TEST(Quality, energy_and_momenta_of_a_turned_spinning_body) {
     BodySample sample = body({1, 2, 3});
     sample.velocity = {{2, 0, 0}, {0, 5, 0}};

@@ -14,6 +14,7 @@
 #include <png.h>
 #include <unistd.h>
 
+#include "render/overlay_lines.h"
 #include "render/renderer.h"
 #include "render/video_writer.h"
 
@@ -224,6 +225,54 @@ TEST(Renderer, shows_islands_each_in_a_colour) {
     EXPECT_LT(apart(left, below), 60);
     EXPECT_GT(apart(left, right), 100);
     EXPECT_TRUE(is_green(at(80, 60))) << "a body alone keeps its colour";
+}
+
+TEST(Renderer, shows_through_sensors_which_throw_no_shadow) {
+    for (const Shape& shape : {Shape(Box{}), Shape(Sphere{})}) {
+        World world({}, on(DeviceKind::Cpu));
+        world.add(body_at({0.0f, -1.0f, 0.0f}, BodyKind::Static, Box{{6.0f, 0.2f, 6.0f}}));
+        const Picture ground = Renderer(world, k_width, k_height, k_camera).draw();
+        const auto darker_than_ground = [&](const Picture& picture) {
+            std::size_t darker = 0;
+            for (std::uint32_t y = 0; y < k_height; ++y)
+                for (std::uint32_t x = 0; x < k_width; ++x) {
+                    const Colour now = colour_at(picture, x, y);
+                    darker += is_blue(now) && now.blue + 50 < colour_at(ground, x, y).blue ? 1 : 0;
+                }
+            return darker;
+        };
+        const BodyId body = world.add(body_at({0.0f, 0.5f, 0.0f}, BodyKind::Rigid, shape));
+        EXPECT_GT(darker_than_ground(Renderer(world, k_width, k_height, k_camera).draw()), 100u);
+        world.set_sensor(body, true);
+        const Picture sensor = Renderer(world, k_width, k_height, k_camera).draw();
+        EXPECT_LT(darker_than_ground(sensor), 40u); // its edges
+        EXPECT_EQ(count(sensor, is_green), 0u);
+        std::size_t changed = 0, much = 0;
+        for (std::size_t i = 2; i < sensor.rgb.size(); i += 3) {
+            changed += sensor.rgb[i] != ground.rgb[i] ? 1 : 0;
+            much += std::abs(sensor.rgb[i] - ground.rgb[i]) > 60 ? 1 : 0;
+        }
+        EXPECT_GT(changed, 500u) << "its faces";
+        EXPECT_GT(much, 30u) << "its edges";
+        EXPECT_LT(much, changed / 3);
+    }
+}
+
+TEST(Renderer, sensors_are_in_no_island_and_no_batch) {
+    World world({}, on(DeviceKind::Cpu));
+    BodyDefinition zone = body_at({}, BodyKind::Rigid, Box{{2.0f, 2.0f, 2.0f}});
+    zone.sensor = true;
+    world.add(zone);
+    world.add(body_at({-0.9f, 0.0f, 0.0f}));
+    world.add(body_at({0.9f, 0.0f, 0.0f}));
+    world.step();
+    const std::vector<Contact> contacts = world.contacts();
+    ASSERT_EQ(contacts.size(), 2u);
+    const std::vector<std::uint32_t> tints = tints_of(world, contacts, {.islands = true}, 3);
+    EXPECT_EQ(tints, (std::vector<std::uint32_t>{0, 0, 0}));
+    std::vector<Line> lines;
+    add_contact_lines(lines, world, contacts, {.colours = true}, 1.0f);
+    EXPECT_TRUE(lines.empty());
 }
 
 TEST(Renderer, shows_what_is_behind_and_within) {

@@ -14,6 +14,7 @@
 #include "viewer/keys.h"
 #include "viewer/measurements.h"
 #include "viewer/session.h"
+#include "viewer/workbench.h"
 
 namespace talus::viewer {
 namespace {
@@ -158,6 +159,8 @@ TEST(Pick, takes_the_nearest_body) {
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->body, near);
     EXPECT_NEAR(hit->distance, 3.5f, k_near);
+    world.set_sensor(near, true);
+    EXPECT_NEAR(pick(world, {{}, {0.0f, 0.0f, -1.0f}})->distance, 8.5f, k_near) << "the body behind a sensor";
     EXPECT_FALSE(pick(world, {{}, {1.0f, 0.0f, 0.0f}}));
 }
 
@@ -387,6 +390,12 @@ TEST(Session, plays_at_the_speed_that_is_asked_for) {
     session.running = false;
     session.advance(std::chrono::duration<double>(1.0));
     EXPECT_NEAR(static_cast<double>(session.world().step_count()), 60.0, 1.0);
+}
+
+TEST(Workbench, has_a_reason_for_what_fails) {
+    EXPECT_EQ(failure_of([] {}), "");
+    EXPECT_NE(failure_of([] { make_session("stack:height=0"); }).find("from 1 to 1000"), std::string::npos);
+    EXPECT_NE(failure_of([] { throw std::bad_alloc(); }).find("memory"), std::string::npos);
 }
 
 TEST(Keys, all_are_in_the_documents) {

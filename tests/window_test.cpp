@@ -34,13 +34,19 @@ Colour colour_at(const render::Picture& picture, int x, int y) {
     return {picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]};
 }
 
-/// Pixels right of the panels for which the condition holds.
-template <typename Condition> int count_pixels(const render::Picture& picture, const Condition& condition) {
+/// Pixels between two columns for which the condition holds.
+template <typename Condition>
+int count_between(int left, int right, const render::Picture& picture, const Condition& condition) {
     int count = 0;
     for (int y = 0; y < static_cast<int>(picture.height); ++y)
-        for (int x = k_panel; x < static_cast<int>(picture.width); ++x)
+        for (int x = left; x < right; ++x)
             count += condition(colour_at(picture, x, y));
     return count;
+}
+
+/// Right of the panels.
+template <typename Condition> int count_pixels(const render::Picture& picture, const Condition& condition) {
+    return count_between(k_panel, static_cast<int>(picture.width), picture, condition);
 }
 
 bool is_green(const Colour& c) {
@@ -153,6 +159,9 @@ TEST_F(WindowOnScreen, runs_pauses_steps_and_steps_back_to_the_same_bits) {
     ASSERT_TRUE(reaches_step(30));
     window.press("space");
     ASSERT_TRUE(shows("paused"));
+    const render::Picture graphs = look("graphs");
+    const auto is_turquoise = [](const Colour& c) { return c.blue > 200 && c.green > 150 && c.red < 60; };
+    EXPECT_GT(count_between(0, k_panel, graphs, is_turquoise), 150) << "the time of the stage solve";
     // What a run without a window gives.
     World shown = saved_world();
     World plain({}, options_on(DeviceKind::Cpu));
@@ -205,6 +214,9 @@ TEST_F(WindowOnScreen, shoots_drops_removes_and_drives) {
     ASSERT_TRUE(shows("5 bodies"));
     window.press("k");
     ASSERT_TRUE(shows("6 bodies"));
+    window.move_mouse(k_middle_x + 120, k_middle_y + 120);
+    window.press("k"); // the newest is driven
+    ASSERT_TRUE(shows("7 bodies"));
     const World before = saved_world();
     window.hold("Right", true);
     window.press("space");
@@ -212,10 +224,13 @@ TEST_F(WindowOnScreen, shoots_drops_removes_and_drives) {
     look("thrown");
     window.hold("Right", false);
     const World after = saved_world();
-    const Vec3 from = before.pose(find(before, BodyKind::Kinematic)).position;
-    const Vec3 to = after.pose(find(after, BodyKind::Kinematic)).position;
+    const BodyId first = find(before, BodyKind::Kinematic), driven = before.bodies().back();
+    ASSERT_EQ(before.kind(driven), BodyKind::Kinematic);
+    ASSERT_NE(driven, first);
+    const Vec3 from = before.pose(driven).position, to = after.pose(driven).position;
     EXPECT_GT(std::hypot(to.x - from.x, to.z - from.z), 1.0f);
     EXPECT_EQ(to.y, from.y);
+    EXPECT_EQ(after.pose(first).position, before.pose(first).position);
     window.press("r");
     EXPECT_TRUE(shows("4 bodies"));
 }
@@ -431,6 +446,24 @@ TEST_F(WindowWithoutScreen, says_how_to_do_without) {
         EXPECT_NE(ending.errors.find("window"), std::string::npos) << ending.errors;
         EXPECT_NE(ending.errors.find("`talus run SCENE --video FILE.mp4`"), std::string::npos) << ending.errors;
     }
+}
+
+TEST_F(WindowWithoutScreen, tells_how_fast_its_pictures_can_be_made) {
+    const Ending ending = shell("unset DISPLAY WAYLAND_DISPLAY; talus view stack:height=2 --offscreen --device cpu "
+                                "--seconds 0.5 --width 320 --height 180");
+    EXPECT_EQ(ending.status, 0) << ending.errors;
+    EXPECT_TRUE(ending.output.starts_with("3 bodies, 320 × 180 pixels, ")) << ending.output;
+    int frames = 0;
+    double seconds = 0.0, rate = 0.0, work = 0.0, played = 0.0;
+    ASSERT_EQ(std::sscanf(ending.output.c_str() + ending.output.find('\n'),
+                          " %d frames in %lf s: %lf frames/s, %lf ms of work a frame, %lf", &frames, &seconds, &rate,
+                          &work, &played),
+              5)
+        << ending.output;
+    EXPECT_GE(seconds, 0.5);
+    EXPECT_NEAR(played, rate / 60.0, 0.02) << "a step of 1/60 s each";
+    EXPECT_NE(ending.output.find("longest"), std::string::npos);
+    EXPECT_TRUE(folder_is_empty());
 }
 
 TEST_F(WindowWithoutScreen, bad_usage_ends_with_2) {

@@ -181,11 +181,9 @@ void XWindow::press(const std::string& keys) const {
         hold(keys.substr(0, plus), false);
         return;
     }
-    // GLFW takes two presses of a key within a millisecond for one.
-    for (const bool down : {true, false}) {
-        hold(keys, down);
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
+    hold(keys, true); // and up again before the program has drawn a frame
+    hold(keys, false);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5)); // GLFW takes two presses within a millisecond for one
 }
 
 void XWindow::move_mouse(int x, int y) const {

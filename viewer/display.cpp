@@ -25,9 +25,9 @@ void Display::fit_canvas(std::uint32_t width, std::uint32_t height) {
     canvas_height = even(height);
 }
 
-void Display::draw(const Session& session, const scenes::Camera& camera, const Region& region, float content_scale,
-                   std::span<const render::Line> more) {
-    fit_canvas(region.width, region.height);
+void Display::draw(const Session& session, const scenes::Camera& camera, std::uint32_t width, std::uint32_t height,
+                   float content_scale, std::span<const render::Line> more) {
+    fit_canvas(width, height);
     if (!bodies || generation != session.generation()) {
         bodies.emplace();
         generation = session.generation();
@@ -41,6 +41,9 @@ void Display::draw(const Session& session, const scenes::Camera& camera, const R
     canvas->begin();
     painter.paint(render::make_view(camera, canvas_width, canvas_height, bodies->typical_size()), drawing);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void Display::show(const Region& region) {
     constexpr std::array<float, 4> k_dark{0.09f, 0.10f, 0.12f, 1.0f}; // behind the panels
     glClearNamedFramebufferfv(0, GL_COLOR, 0, k_dark.data());
     canvas->show(0, region.left, region.width, region.height);

@@ -27,10 +27,12 @@ class Display {
 public:
     render::Overlays overlays;
 
-    /// Into a part of the window's framebuffer; on a GPU straight from the solver's buffers. `more` is drawn besides.
-    /// `content_scale`: pixels for one of a usual screen.
-    void draw(const Session&, const scenes::Camera&, const Region&, float content_scale,
-              std::span<const render::Line> more);
+    /// A picture of this size; on a GPU straight from the solver's buffers. `more` is drawn besides. `content_scale`:
+    /// pixels for one of a usual screen.
+    void draw(const Session&, const scenes::Camera&, std::uint32_t width, std::uint32_t height, float content_scale,
+              std::span<const render::Line> more = {});
+    /// Puts what was drawn into a part of the window's framebuffer.
+    void show(const Region&);
     /// Edge length of the usual body that can move (m).
     float typical_size() const noexcept { return bodies ? bodies->typical_size() : 1.0f; }
 

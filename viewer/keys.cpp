@@ -86,11 +86,11 @@ constexpr std::array k_keys{
 };
 
 constexpr std::array k_gestures{
-    Gesture{"left button", "on a body: drag it; elsewhere: turn the camera"},
+    Gesture{"left button", "on a body: drag it; on a kinematic one: drive it from now on; elsewhere: turn the camera"},
     Gesture{"right button", "turn the camera"},
     Gesture{"middle button, or Shift + left", "move the camera sideways"},
     Gesture{"wheel", "nearer, farther; while dragging: the body"},
-    Gesture{"W A S D Q E", "fly: on, left, back, right, down, up"},
+    Gesture{"W A S D Q E", "fly: on, left, back, right, down, up; with Shift faster"},
     Gesture{"arrows, Page Up, Page Down", "drive the kinematic body"},
     Gesture{"files dropped here", "scenes (.gltf, .glb) and snapshots (.snapshot)"},
 };

@@ -2,6 +2,7 @@
 #include "viewer/measurements.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -22,6 +23,14 @@ void Curve::add(float value) {
 
 float Curve::largest() const noexcept {
     return kept.empty() ? 0.0f : *std::ranges::max_element(kept);
+}
+
+float Curve::mean() const noexcept {
+    constexpr std::size_t k_values = 15;
+    const std::size_t count = std::min(kept.size(), k_values);
+    return count == 0 ? 0.0f
+                      : std::accumulate(kept.end() - static_cast<std::ptrdiff_t>(count), kept.end(), 0.0f) /
+                            static_cast<float>(count);
 }
 
 Energy energy_of(const World& world) {
@@ -60,7 +69,7 @@ void Measurements::update(const World& world) {
     substeps.add(static_cast<float>(report.substeps));
     stage_ms.resize(report.stage_ms.size());
     for (std::size_t i = 0; i < stage_ms.size(); ++i)
-        stage_ms[i] += 0.1 * (report.stage_ms[i] - stage_ms[i]);
+        stage_ms[i].add(static_cast<float>(report.stage_ms[i]));
     memory = world.memory();
 
     const auto now = std::chrono::steady_clock::now();

@@ -20,6 +20,8 @@ public:
     const std::vector<float>& values() const noexcept { return kept; }
     float newest() const noexcept { return kept.empty() ? 0.0f : kept.back(); }
     float largest() const noexcept;
+    /// Of the last values, a quarter of a second's.
+    float mean() const noexcept;
 
 private:
     std::vector<float> kept;
@@ -38,7 +40,7 @@ public:
     void update(const World&);
 
     Curve step_ms, pairs, contacts, colours, substeps, kinetic, total;
-    std::vector<double> stage_ms; ///< smoothed over some steps
+    std::vector<Curve> stage_ms; ///< in the order of stage_names()
     MemoryUse memory;
 
 private:

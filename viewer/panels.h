@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/scene.h"
@@ -17,10 +18,12 @@ public:
     void show(Workbench&);
 
 private:
-    void choose(const scenes::SceneInfo&);
+    void choose(const scenes::SceneInfo&, std::string_view parameters = "");
+    /// Shows the scene that is open with its parameters, where another than before is; of a file there are none.
+    void follow(const std::string& name);
     std::string specification() const;
 
-    std::string search, path;
+    std::string search, path, followed;
     const scenes::SceneInfo* chosen = nullptr;
     std::vector<double> values; ///< of the chosen scene's parameters
 };

@@ -71,6 +71,7 @@ std::optional<Hit> pick(const World& world, const Ray& ray) {
     const std::vector<Pose> poses = world.poses();
     std::optional<Hit> nearest;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (world.is_sensor(bodies[i])) continue;
         std::optional<Hit> hit = meet(ray, world.shape(bodies[i]), poses[i]);
         if (!hit || (nearest && hit->distance >= nearest->distance)) continue;
         hit->body = bodies[i];

@@ -25,7 +25,7 @@ struct Hit {
 /// Where a ray enters a shape; nothing where it misses, or begins inside.
 std::optional<Hit> meet(const Ray&, const Shape&, const Pose&);
 
-/// The nearest body that the ray enters. Reads all poses.
+/// The nearest body that the ray enters; sensors, which nothing touches, do not count. Reads all poses.
 std::optional<Hit> pick(const World&, const Ray&);
 
 } // namespace talus::viewer

@@ -6,6 +6,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "scenes/parameters.h"
 #include "viewer/panels.h"
 
 namespace talus::viewer {
@@ -42,11 +43,22 @@ void edit_parameter(const scenes::Parameter& parameter, double& value) {
 
 } // namespace
 
-void ScenePanel::choose(const scenes::SceneInfo& scene) {
+void ScenePanel::choose(const scenes::SceneInfo& scene, std::string_view parameters) {
+    const scenes::Parameters given(scene, parameters);
     chosen = &scene;
     values.clear();
     for (const scenes::Parameter& parameter : scene.parameters)
-        values.push_back(parameter.default_value);
+        values.push_back(given.value_of(parameter.name));
+}
+
+void ScenePanel::follow(const std::string& name) {
+    if (name == followed) return;
+    followed = name;
+    chosen = nullptr;
+    const std::size_t end = std::min(name.find(':'), name.size());
+    const auto scene = std::ranges::find(scenes::list_scenes(), name.substr(0, end), &scenes::SceneInfo::name);
+    if (scene != scenes::list_scenes().end())
+        choose(*scene, std::string_view(name).substr(std::min(end + 1, name.size())));
 }
 
 std::string ScenePanel::specification() const {
@@ -57,6 +69,7 @@ std::string ScenePanel::specification() const {
 }
 
 void ScenePanel::show(Workbench& bench) {
+    follow(bench.session.scene().name);
     ImGui::SetNextItemWidth(-1.0f);
     if (ImGui::InputTextWithHint("##search", "search a scene; Enter opens the first", &search,
                                  ImGuiInputTextFlags_EnterReturnsTrue)) {

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <epoxy/gl.h>
-
+#include "device/gl/gl_context.h"
 #include "scenes/camera.h"
 
 namespace talus::viewer {
@@ -54,10 +52,7 @@ scenes::Camera camera_for(const World& world) {
 
 DeviceKind device_for_window(DeviceKind wanted) {
     if (wanted != DeviceKind::Auto) return wanted;
-    const std::string_view renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    for (const char* software : {"llvmpipe", "softpipe", "swrast", "SWR", "lavapipe", "Software Rasterizer"})
-        if (renderer.find(software) != std::string_view::npos) return DeviceKind::Cpu;
-    return DeviceKind::Gpu;
+    return engine::OpenGlContext::current()->is_software() ? DeviceKind::Cpu : DeviceKind::Gpu;
 }
 
 Session::Session(const std::string& specification, DeviceKind kind, std::uint32_t thread_count, Adjust settings)

@@ -45,7 +45,7 @@ void show_settings_panel(Workbench& bench) {
 
     Settings settings = world.settings();
     bool changed = choose("broad phase", settings.broad_phase, cli::broad_phase_words());
-    changed |= choose("order", settings.solve_order, cli::solve_order_words());
+    changed |= choose("solve order", settings.solve_order, cli::solve_order_words());
     if (choose("stabilisation", settings.stabilisation, cli::stabilisation_words())) {
         // As on the command line: Baumgarte's bias wants passes where soft contacts want sub-steps.
         settings.iterations = settings.stabilisation == Stabilisation::Baumgarte ? 10 : Settings{}.iterations;

@@ -71,7 +71,17 @@ void Ui::begin() {
     fit_letters(window.content_scale());
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    hold_keys(true);
     ImGui::NewFrame();
+    hold_keys(false);
+    pressed.clear();
+}
+
+void Ui::hold_keys([[maybe_unused]] bool for_frame) {
+#if IMGUI_VERSION_NUM < 18700 // from then on it has a queue of keys itself
+    for (const int key : pressed)
+        if (key >= 0) ImGui::GetIO().KeysDown[key] = for_frame || window.is_key_down(key);
+#endif
 }
 
 void Ui::end() {

@@ -2,6 +2,8 @@
 // Dear ImGui in a window: set up, begun and ended once a frame, in letters that fit the screen.
 #pragma once
 
+#include <vector>
+
 #include "viewer/window.h"
 
 namespace talus::viewer {
@@ -12,6 +14,9 @@ public:
     ~Ui();
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
+
+    /// To be called for each key that goes down, so that panels see also one that was up again before the frame began.
+    void note_key(int key) { pressed.push_back(key); }
 
     /// Panels are described between these two.
     void begin();
@@ -24,9 +29,11 @@ public:
 
 private:
     void fit_letters(float scale);
+    void hold_keys(bool for_frame);
 
     Window& window;
     float fitted_scale = 0.0f;
+    std::vector<int> pressed; ///< since the last frame
 };
 
 } // namespace talus::viewer

@@ -15,7 +15,9 @@
 
 #include "cli/interrupt.h"
 #include "cli/words.h"
+#include "viewer/frame_times.h"
 #include "viewer/keys.h"
+#include "viewer/offscreen.h"
 #include "viewer/panels.h"
 #include "viewer/ui.h"
 #include "viewer/window.h"
@@ -29,8 +31,13 @@ using Clock = std::chrono::steady_clock;
 
 // Panels need some frames to settle after something has happened; later a paused scene costs next to nothing.
 constexpr int k_frames_after_input = 4;
+constexpr float k_haste = 4.0f;                                 // with Shift, flying is so much faster
 constexpr double k_idle_wait = 0.25;                            // s
 constexpr std::chrono::duration<double> k_longest_elapsed{0.1}; // after a halt, time is not made up for
+
+double simulated_seconds(const World& world) {
+    return static_cast<double>(world.step_count()) * world.settings().dt;
+}
 
 class Viewer : InputHandler {
 public:
@@ -45,16 +52,14 @@ public:
         bench.look_from_start();
         bench.display.overlays = options.overlays;
         bench.session.running = !options.paused;
-        for (const std::string& warning : bench.session.scene().warnings)
-            bench.say(warning);
+        bench.say(fmt::format("{}", fmt::join(bench.session.scene().warnings, "\n")));
     }
 
     /// Until the window is closed, or for so long.
     void run(std::optional<double> seconds) {
         const Clock::time_point start = Clock::now();
         Clock::time_point last = start;
-        std::uint64_t frames = 0;
-        std::chrono::duration<double> work{0.0};
+        FrameTimes frames;
         while (!window.should_close()) {
             if (seconds && std::chrono::duration<double>(last - start).count() >= *seconds) break;
             if (bench.session.running || busy_frames > 0)
@@ -66,19 +71,13 @@ public:
             const auto elapsed = std::min(std::chrono::duration<double>(now - last), k_longest_elapsed);
             last = now;
             if (busy_frames > 0) --busy_frames;
+            frames.begin();
             frame(elapsed);
-            ++frames;
-            work += Clock::now() - now;
+            frames.end_work();
             // Where the system does not wait for the screen's refresh, as without a screen.
             std::this_thread::sleep_until(now + std::chrono::duration<double>(0.95 / window.refresh_rate()));
         }
-        if (seconds) {
-            const double shown = std::chrono::duration<double>(last - start).count();
-            fmt::print(
-                "{} frames in {:.1f} s: {:.1f} frames/s, {:.2f} ms of work a frame, {:.2f} × real time\n", frames,
-                shown, static_cast<double>(frames) / shown, 1.0e3 * work.count() / static_cast<double>(frames),
-                static_cast<double>(bench.session.world().step_count()) * bench.session.world().settings().dt / shown);
-        }
+        if (seconds) fmt::print("{}", frames.summary(simulated_seconds(bench.session.world())));
         bench.display.finish_video(); // here its error ends the program: there is no window any more to tell it
     }
 
@@ -93,6 +92,7 @@ private:
 
     void key_pressed(int key, bool, bool control, bool repeated) override {
         busy_frames = k_frames_after_input;
+        ui.note_key(key);
         if (!ui.wants_keyboard()) press_key(key, control, repeated, {bench, window, pointer()});
     }
     void mouse_pressed(MouseButton, bool shift) override;
@@ -168,7 +168,8 @@ void Viewer::move_by_keys(float seconds) {
     const bool control = window.is_key_down(GLFW_KEY_LEFT_CONTROL) || window.is_key_down(GLFW_KEY_RIGHT_CONTROL);
     const glm::vec3 flight(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S));
     if (flight != glm::vec3(0.0f) && !control) {
-        bench.camera.fly(flight, seconds);
+        const bool shift = window.is_key_down(GLFW_KEY_LEFT_SHIFT) || window.is_key_down(GLFW_KEY_RIGHT_SHIFT);
+        bench.camera.fly(flight, shift ? k_haste * seconds : seconds);
         busy_frames = k_frames_after_input;
     }
     bench.drive({axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN),
@@ -195,7 +196,9 @@ void Viewer::frame(std::chrono::duration<double> elapsed) {
         render::add_arrow(lines, pull->first, pull->second, render::pack_colour({1.0f, 0.9f, 0.2f}));
     const bool was_recording = bench.display.is_recording();
     bench.attempt([&] {
-        bench.display.draw(bench.session, bench.camera.camera(), region, window.content_scale(), lines);
+        bench.display.draw(bench.session, bench.camera.camera(), region.width, region.height, window.content_scale(),
+                           lines);
+        bench.display.show(region);
         if (was_recording && !bench.display.is_recording()) bench.say("the picture's size has changed: the video ends");
         if (was_running) bench.display.record();
     });
@@ -211,7 +214,10 @@ void Viewer::frame(std::chrono::duration<double> elapsed) {
 } // namespace
 
 void run_viewer(const ViewOptions& options) {
-    Viewer(options).run(options.seconds);
+    if (options.offscreen)
+        run_offscreen(options);
+    else
+        Viewer(options).run(options.seconds);
 }
 
 } // namespace talus::viewer

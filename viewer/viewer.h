@@ -16,6 +16,7 @@ struct ViewOptions {
     std::uint32_t width = 1280, height = 720;
     bool paused = false;
     std::optional<double> seconds; ///< after which the window closes, and says how many frames it showed
+    bool offscreen = false;        ///< no window: how fast its pictures can be made
 };
 
 /// Returns when the window is closed. Throws Error where no window can be opened, or the scene or the device cannot be

@@ -35,18 +35,20 @@ Workbench::Workbench(const std::string& scene, DeviceKind device, std::uint32_t 
 
 void Workbench::open(const std::string& specification) {
     attempt([&] {
-        let_go();
         session.open(specification);
+        let_all_go();
         look_from_start();
         is_new_scene = true;
-        say(session.scene().warnings.empty() ? "opened " + session.scene().name : session.scene().warnings.front());
+        const std::vector<std::string>& warnings = session.scene().warnings;
+        say(fmt::format("opened {}{}{}", session.scene().name, warnings.empty() ? "" : "\n",
+                        fmt::join(warnings, "\n")));
     });
 }
 
 void Workbench::reset() {
     attempt([&] {
-        let_go();
         session.reset();
+        let_all_go();
     });
 }
 
@@ -61,8 +63,8 @@ void Workbench::reseed() {
     const std::string other =
         name.substr(0, place) + "seed=" + std::to_string(std::random_device{}()) + name.substr(end);
     attempt([&] {
-        let_go();
         session.open(other);
+        let_all_go();
     });
 }
 
@@ -106,18 +108,18 @@ void Workbench::advance(std::chrono::duration<double> elapsed, const Ray& pointe
         const float along = glm::dot(pointer.direction, camera.forward());
         if (along > 0.05f) hand.pull_to(place_on(pointer, grip_depth / along));
     }
-    try {
-        session.advance(display.is_recording() ? Display::k_frame_time : elapsed);
-    } catch (const Error& error) {
+    if (!attempt([&] { session.advance(display.is_recording() ? Display::k_frame_time : elapsed); }))
         session.running = false;
-        say(error.what());
-    }
 }
 
 // ---- by hand ----
 
 bool Workbench::take_hold(const Ray& ray) {
     const std::optional<Hit> hit = pick(session.world(), ray);
+    if (hit && session.world().kind(hit->body) == BodyKind::Kinematic) {
+        drive_from_now_on(hit->body);
+        say("the arrow keys drive this body");
+    }
     if (!hit || session.world().kind(hit->body) != BodyKind::Rigid) return false;
     hand.hold(session.world(), *hit);
     grip_depth = hit->distance * glm::dot(ray.direction, camera.forward());
@@ -126,6 +128,12 @@ bool Workbench::take_hold(const Ray& ray) {
 
 void Workbench::let_go() {
     hand.release();
+}
+
+void Workbench::let_all_go() {
+    let_go();
+    driven = {};
+    driven_velocity = {};
 }
 
 void Workbench::reach(float notches) {
@@ -146,12 +154,19 @@ void Workbench::add_platform(const Ray& ray) {
     const std::optional<Hit> hit = pick(session.world(), ray);
     const float size = display.typical_size();
     const glm::vec3 place = hit ? hit->point + 0.5f * size * hit->normal : place_on(ray, camera.reach());
-    attempt([&] { session.change().add(platform_at(place, size)); });
+    attempt([&] { drive_from_now_on(session.change().add(platform_at(place, size))); });
+}
+
+void Workbench::drive_from_now_on(BodyId body) {
+    drive({});
+    driven = body;
 }
 
 void Workbench::drive(glm::vec3 direction) {
     if (direction == glm::vec3(0.0f) && driven_velocity == Vec3{}) return;
-    const std::optional<BodyId> body = find_kinematic(session.world());
+    const World& world = session.world();
+    const bool chosen = world.contains(driven) && world.kind(driven) == BodyKind::Kinematic;
+    const std::optional<BodyId> body = chosen ? driven : find_kinematic(world);
     if (!body) {
         driven_velocity = {};
         if (direction != glm::vec3(0.0f)) say("there is no kinematic body to drive; K adds a platform");
@@ -228,8 +243,8 @@ void Workbench::load_snapshot() {
         return;
     }
     attempt([&] {
-        let_go();
         session.load(newest_snapshot);
+        let_all_go();
         say("loaded " + newest_snapshot.string());
     });
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <new>
 #include <string>
 
 #include "viewer/camera_control.h"
@@ -12,6 +13,18 @@
 #include "viewer/session.h"
 
 namespace talus::viewer {
+
+/// Does something. The reason in words where it throws Error or memory is not enough; otherwise nothing.
+template <typename Action> std::string failure_of(const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    } catch (const std::bad_alloc&) {
+        return "there is not enough memory for that";
+    }
+    return {};
+}
 
 class Workbench {
 public:
@@ -44,14 +57,15 @@ public:
     void advance(std::chrono::duration<double> elapsed, const Ray& pointer);
 
     // ---- by hand ----
-    /// Whether there was a body to take hold of.
+    /// Whether there was a body to take hold of; a kinematic one is driven from then on instead.
     bool take_hold(const Ray&);
     void let_go();
     void reach(float notches); ///< what is held: farther (positive) or nearer
     void shoot(const Ray&);
     void drop_box(const Ray&);
-    void add_platform(const Ray&);
-    /// Moves the first kinematic body in camera axes, each from -1 to 1: right, up, away.
+    void add_platform(const Ray&); ///< which the keys drive from then on
+    /// Moves the kinematic body that was clicked at or added last, otherwise the first, in camera axes, each from -1 to
+    /// 1: right, up, away.
     void drive(glm::vec3 direction);
     void remove_body(const Ray&);
     void look_at(const Ray&);
@@ -69,23 +83,25 @@ public:
     /// The newest message, or nothing a few seconds after it came.
     std::string message() const;
     void say(const std::string&);
-    /// Does something; where it throws Error, the reason becomes the message.
-    template <typename Action> void attempt(const Action& action) {
-        try {
-            action();
-        } catch (const Error& error) {
-            say(error.what());
-        }
+    /// Does something; where it fails, the reason becomes the message. False then.
+    template <typename Action> bool attempt(const Action& action) {
+        const std::string reason = failure_of(action);
+        if (!reason.empty()) say(reason);
+        return reason.empty();
     }
 
 private:
+    /// Before another world comes: nothing is held or driven.
+    void let_all_go();
+    void drive_from_now_on(BodyId);
     std::filesystem::path next_file(const std::string& ending) const;
 
     std::string newest_message;
     std::chrono::steady_clock::time_point message_time;
     std::filesystem::path newest_snapshot, video_file;
     float grip_depth = 0.0f; ///< m, along the camera's direction
-    Vec3 driven_velocity;
+    BodyId driven;           ///< by the keys; may be gone
+    Vec3 driven_velocity;    ///< that it was given
     bool is_new_scene = true;
 };
 

@@ -9,7 +9,7 @@ layout(location = 2) out vec3 shadow_position;
 layout(location = 3) flat out vec3 normal;
 layout(location = 4) flat out vec3 face_reach; // m; xy: from the middle of the face to its sides, z: least of the box
 layout(location = 5) flat out vec3 albedo;
-layout(location = 6) flat out uint kind;
+layout(location = 6) flat out uint look;
 
 void main()
 {
@@ -28,8 +28,8 @@ void main()
     normal = rotate(pose.rotation, local_normal);
     face_position = axis == 0u ? local.yz : axis == 1u ? local.zx : local.xy;
     face_reach = vec3(axis == 0u ? h.yz : axis == 1u ? h.zx : h.xy, min(min(h.x, h.y), h.z));
-    kind = kind_of(shape);
-    albedo = colour_of(slot, kind);
+    look = look_of(shape);
+    albedo = colour_of(slot, look);
 
     vec3 lower, upper;
     shadow_bounds(lower, upper);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Boxes as the sun sees them. What lies outside the map along the sun's direction is clamped to its ends.
+// Boxes as the sun sees them; sensors it does not see. What lies outside the map along the sun's direction is clamped to its ends.
 #include "shaders/box_vertex.glsl"
 
 void main()
 {
     uint slot = slots[first_instance + uint(gl_InstanceID)];
+    if (is_sensor(shapes[slot])) {
+        gl_Position = k_outside;
+        return;
+    }
     BodyPose pose = poses[slot];
     vec3 corner;
     uint axis;

@@ -2,7 +2,8 @@
 // Fits the shadow map to the bodies in sight, without a read-back.
 // One invocation is an entry of Slots.
 // Reads Poses, Shapes, Slots; writes ShadowBounds, which the host has emptied.
-// Large static bodies (grounds) do not count: they receive shadows, and would make the map coarse.
+// Sensors throw no shadow. Large static bodies (grounds) do not count: they receive shadows, and would make the map
+// coarse.
 
 layout(local_size_x = 64) in;
 
@@ -27,6 +28,7 @@ void main()
     if (entry >= body_count) return;
     uint slot = slots[entry];
     BodyShape shape = shapes[slot];
+    if (is_sensor(shape)) return;
     vec3 centre = poses[slot].position;
     float reach = reach_of(shape);
     if (kind_of(shape) == k_kind_static && reach > 0.75 * target.w) return;

@@ -11,6 +11,8 @@ layout(std430, binding = 4) readonly buffer ShadowBounds
     uint upper_keys[4];
 };
 
+const vec4 k_outside = vec4(2.0, 2.0, 0.0, 1.0); // of the map, in clip space: what lies there is not drawn
+
 uint key_of(float x)
 {
     uint bits = floatBitsToUint(x);

@@ -28,13 +28,14 @@ void main()
 
     vec4 to_body = vec4(-pose.rotation.xyz, pose.rotation.w);
     vec3 d = abs(rotate(to_body, radius * normal));
-    uint kind = kind_of(shape);
+    uint look = look_of(shape);
     float to_ring = min(min(d.x, d.y), d.z), surface_pixel = pixel / max(0.25, -dot(normal, ray));
     if (wireframe && miss < radius - 1.5 * pixel && !is_on_wire(to_ring, radius, surface_pixel)) discard;
-    vec3 surface = colour_of(slot, kind) * edge_line(to_ring, radius, surface_pixel);
+    vec3 surface = colour_of(slot, look) * edge_line(to_ring, radius, surface_pixel);
 
     vec3 lower, upper;
     shadow_bounds(lower, upper);
     vec3 lit = light_surface(surface, normal, -ray, shadow_place(position, normal, lower, upper));
-    colour = vec4(fade(lit, kind, position, gl_FragCoord.y), cover * opacity_of(kind));
+    float opacity = cover * opacity_of(look, to_ring, radius, surface_pixel);
+    colour = vec4(fade(lit, look, position, gl_FragCoord.y), opacity);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spheres as the sun sees them. A disc through the centre throws the same shadow, and is never in front of the side that
+// Spheres as the sun sees them; sensors it does not see. A disc through the centre throws the same shadow, and is never in front of the side that
 // the sun lights.
 
 layout(location = 0) out vec2 disc; // -1 to 1
@@ -7,6 +7,10 @@ layout(location = 0) out vec2 disc; // -1 to 1
 void main()
 {
     uint slot = slots[first_instance + uint(gl_InstanceID)];
+    if (is_sensor(shapes[slot])) {
+        gl_Position = k_outside;
+        return;
+    }
     disc = vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? -1.0 : 1.0);
     vec3 lower, upper;
     shadow_bounds(lower, upper);

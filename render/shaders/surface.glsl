@@ -15,14 +15,20 @@ float noise(uint x)
     return float((x ^ (x >> 16)) >> 8) / 16777216.0;
 }
 
-// Linear colours: static blue, rigid green, kinematic orange, unless an overlay has another.
-vec3 colour_of(uint slot, uint kind)
+// What a body looks like: one of k_kind_*, and a sensor like this whatever its kind.
+const uint k_look_sensor = 3u;
+
+uint look_of(BodyShape shape) { return is_sensor(shape) ? k_look_sensor : kind_of(shape); }
+
+// Linear colours: static blue, rigid green, kinematic orange, a sensor turquoise, unless an overlay has another.
+vec3 colour_of(uint slot, uint look)
 {
     if (tinted && tints[slot] != 0u) return unpackUnorm4x8(tints[slot]).rgb * (0.85 + 0.30 * noise(slot));
-    if (kind == k_kind_static) return vec3(0.115, 0.220, 0.460);
+    if (look == k_kind_static) return vec3(0.115, 0.220, 0.460);
+    if (look == k_look_sensor) return vec3(0.010, 0.420, 0.460);
     float brightness = 0.85 + 0.30 * noise(slot);
     float warmth = noise(slot + 0x9e3779b9u) - 0.5;
-    vec3 colour = kind == k_kind_rigid ? vec3(0.165, 0.470, 0.135) : vec3(0.850, 0.290, 0.035);
+    vec3 colour = look == k_kind_rigid ? vec3(0.165, 0.470, 0.135) : vec3(0.850, 0.290, 0.035);
     vec3 tint = vec3(1.0 + 0.30 * warmth, 1.0, 1.0 - 0.26 * warmth);
     return colour * tint * brightness;
 }
@@ -46,7 +52,12 @@ float edge_line(float d, float size, float pixel)
 // In a wireframe a line is never thinner than a pixel.
 bool is_on_wire(float d, float size, float pixel) { return d < max(edge_width(size), 0.75 * pixel); }
 
-float opacity_of(uint kind) { return transparent_static && kind == k_kind_static ? 0.3 : 1.0; }
+// d away from an edge, as above. A sensor is seen by its edges, and through its faces.
+float opacity_of(uint look, float d, float size, float pixel)
+{
+    if (look == k_look_sensor) return max(0.25, line(d, edge_width(size), pixel));
+    return transparent_static && look == k_kind_static ? 0.3 : 1.0;
+}
 
 // Where the shadow map is looked up for a surface point: a texel or two off the surface, so that a surface does not
 // shadow itself.
@@ -85,8 +96,8 @@ vec3 light_surface(vec3 colour, vec3 normal, vec3 to_eye, vec3 in_shadow)
 }
 
 // Static bodies far from the middle of the picture fade into the background.
-vec3 fade(vec3 lit, uint kind, vec3 position, float picture_y)
+vec3 fade(vec3 lit, uint look, vec3 position, float picture_y)
 {
-    if (kind != k_kind_static) return lit;
+    if (look != k_kind_static) return lit;
     return mix(lit, background(picture_y / viewport.y), smoothstep(0.7, 1.9, distance(position, target.xyz) / target.w));
 }

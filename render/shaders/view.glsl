@@ -28,6 +28,8 @@ vec3 rotate(vec4 rotation, vec3 v)
 
 uint kind_of(BodyShape shape) { return (shape.type >> 8) & 0xffu; }
 
+bool is_sensor(BodyShape shape) { return (shape.type & k_sensor_bit) != 0u; }
+
 bool is_sphere(BodyShape shape) { return (shape.type & 0xffu) == k_shape_sphere; }
 
 // Radius of a ball around the body's centre that holds all of it.

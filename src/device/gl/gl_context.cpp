@@ -273,7 +273,8 @@ DeviceInfo OpenGlContext::info() const {
 }
 
 bool OpenGlContext::is_software() const noexcept {
-    for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR", "lavapipe", "Software Rasterizer"}) {
+    for (const char* name :
+         {"llvmpipe", "softpipe", "swrast", "SWR", "lavapipe", "SwiftShader", "Software Rasterizer"}) {
         if (renderer_.find(name) != std::string::npos) return true;
     }
     return false;
