@@ -24,6 +24,7 @@ struct StepReport {
     std::uint32_t overflow_manifolds = 0; ///< without a colour, solved one at a time
     std::uint32_t hubs = 0;          ///< bodies with so many contacts that each is solved with a share of their mass
     std::uint32_t frozen_bodies = 0; ///< bodies whose velocity became non-finite, in all steps so far
+    std::uint32_t sleeping_bodies = 0; ///< see Settings::sleeping
     std::uint32_t growths = 0;       ///< steps done again with larger buffers or more launches, so far
     std::uint32_t dispatches = 0;    ///< launches of kernels that the host gave
     BroadPhase broad_phase = BroadPhase::Auto; ///< what found the pairs; Auto before the first step
@@ -138,6 +139,12 @@ public:
     /// N·s, at a point in world space (m): turns the body too.
     void add_impulse(BodyId, Vec3 impulse, Vec3 point);
     void add_angular_impulse(BodyId, Vec3 impulse); ///< N·m·s; changes the angular velocity at once
+
+    /// Whether a body slept in the last step (see Settings::sleeping); waits for it. Only rigid bodies ever do.
+    bool is_asleep(BodyId) const;
+    /// Wakes a body, with its island, and what touches it: with the next step they begin their rest anew. All calls that
+    /// change a body do so. Without effect where all is awake.
+    void wake(BodyId);
 
     /// Factor on the world's gravity.
     float gravity_scale(BodyId) const;

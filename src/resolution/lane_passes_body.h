@@ -71,7 +71,7 @@ TALUS_LANE BodyProperties properties_at(const CpuState& state, const std::uint32
 
 TALUS_LANE BodyLoad loads_at(const CpuState& state, const std::uint32_t* bodies) {
     const auto force = gather(state.loads.data, bodies, 0), torque = gather(state.loads.data, bodies, 1);
-    return {three_of(force), force.w, three_of(torque), torque.w};
+    return {three_of(force), floatBitsToUint(force.w), three_of(torque), torque.w};
 }
 
 TALUS_LANE BodyDelta deltas_at(const CpuState& state, const std::uint32_t* bodies) {

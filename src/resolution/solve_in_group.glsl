@@ -171,6 +171,10 @@ void solve_group(uint group)
         begin_motion(body, own_slot(i));
         atomicMax(most_substeps, unpack(inertias[body]).substeps);
     }
+    if (parameters.rest_steps > 0u) {
+        barrier();
+        if (most_substeps == 0u) return; // nobody is awake here
+    }
     find_colours(group);
     barrier();
     uint last = most_substeps;
