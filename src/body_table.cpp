@@ -191,9 +191,8 @@ void BodyTable::restore(const BodyTable& saved) {
     for (uint slot = 0; slot < slot_count(); ++slot)
         mark(slot, k_dirty_all);
     // Where the caller has changed something since the last step.
-    const bool disturbed = !resting_slots.empty() || std::ranges::any_of(loads, [](const BodyLoad& load) {
-        return load.disturbed != 0;
-    });
+    const bool disturbed =
+        !resting_slots.empty() || std::ranges::any_of(loads, [](const BodyLoad& load) { return load.disturbed != 0; });
     waking = disturbed ? Waking::Disturbed : Waking::None;
 }
 

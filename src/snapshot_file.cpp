@@ -137,8 +137,8 @@ void check(SavedState& state) {
         throw Error("it has not as many points as its manifolds say");
     if (report.pairs != state.manifolds.size() || report.manifolds != touching || report.contacts != solved_count ||
         (!state.contact_states.empty() && state.contact_states.size() != report.pairs) ||
-        (!state.rests.empty() && state.rests.size() != slots) || counters[k_counter_did_not_fit] != 0 || counters[k_counter_body_count] > slots ||
-        counters[k_counter_old_pair_count] != report.pairs)
+        (!state.rests.empty() && state.rests.size() != slots) || counters[k_counter_did_not_fit] != 0 ||
+        counters[k_counter_body_count] > slots || counters[k_counter_old_pair_count] != report.pairs)
         throw Error("its counts do not go together");
 }
 

@@ -35,7 +35,7 @@ struct StepPlan {
     uint substep_capacity = 1; ///< sub-steps that get launches: some, until it is known that none are needed
     uint iterations = 0;
     bool relax = false;
-    bool bounces = false; ///< some body has a restitution above 0
+    bool bounces = false;  ///< some body has a restitution above 0
     bool sleeping = false; ///< islands may sleep
     Waking waking = Waking::None;
     ContactWatch watch = ContactWatch::None;

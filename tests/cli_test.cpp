@@ -83,13 +83,14 @@ TEST_F(Program, report_has_every_key) {
     EXPECT_EQ(ending.errors, "");
     const json report = json_of("report.json");
     EXPECT_EQ(keys_of(report),
-              (std::vector<std::string>{"bodies",    "broad_phase", "colours",    "contacts",    "device",
-                                        "dt",        "growths",     "iterations", "manifolds",   "memory_bytes",
-                                        "pairs",     "quality",     "scene",      "sleeping",    "solve_order",
-                                        "stabilisation", "stages_ms", "state_hash", "step_ms", "steps",
-                                        "steps_per_second", "substeps", "threads"}));
+              (std::vector<std::string>{
+                  "bodies",  "broad_phase", "colours",          "contacts",      "device",    "dt",
+                  "growths", "iterations",  "manifolds",        "memory_bytes",  "pairs",     "quality",
+                  "scene",   "sleeping",    "solve_order",      "stabilisation", "stages_ms", "state_hash",
+                  "step_ms", "steps",       "steps_per_second", "substeps",      "threads"}));
     EXPECT_EQ(keys_of(report["device"]), (std::vector<std::string>{"driver", "kind", "name"}));
-    EXPECT_EQ(keys_of(report["bodies"]), (std::vector<std::string>{"dynamic", "kinematic", "sleeping", "static", "total"}));
+    EXPECT_EQ(keys_of(report["bodies"]),
+              (std::vector<std::string>{"dynamic", "kinematic", "sleeping", "static", "total"}));
     EXPECT_EQ(keys_of(report["step_ms"]), (std::vector<std::string>{"max", "mean", "median", "p95"}));
     EXPECT_EQ(keys_of(report["memory_bytes"]), (std::vector<std::string>{"device", "host"}));
     EXPECT_EQ(keys_of(report["quality"]),

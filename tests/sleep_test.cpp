@@ -134,8 +134,8 @@ TEST_P(Sleep, a_ball_wakes_the_stack_in_the_step_of_touch_and_no_other) {
         world.step();
         const std::vector<Contact> contacts = world.contacts();
         touched = touched || std::ranges::any_of(contacts, [&](const Contact& contact) {
-            return contact.b == ball && contact.a != made.floor;
-        });
+                      return contact.b == ball && contact.a != made.floor;
+                  });
         EXPECT_TRUE(touched ? none_asleep(world, made.stack) : all_asleep(world, made.stack)) << "step " << i;
         EXPECT_TRUE(all_asleep(world, other));
     }
@@ -149,10 +149,22 @@ TEST_P(Sleep, whatever_the_caller_does_to_one_body_wakes_its_island) {
     const BodyId box = made.stack[1];
     const std::vector<std::pair<const char*, std::function<void()>>> calls{
         {"wake", [&] { world.wake(box); }},
-        {"add_force", [&] { world.add_force(box, {1.0f, 0.0f, 0.0f}); }},
-        {"add_torque", [&] { world.add_torque(box, {0.0f, 1.0f, 0.0f}); }},
-        {"add_impulse", [&] { world.add_impulse(box, {0.0f, 1.0f, 0.0f}); }},
-        {"set_velocity", [&] { world.set_velocity(box, {{0.0f, 0.01f, 0.0f}, {}}); }},
+        {"add_force",
+         [&] {
+             world.add_force(box, {1.0f, 0.0f, 0.0f});
+         }},
+        {"add_torque",
+         [&] {
+             world.add_torque(box, {0.0f, 1.0f, 0.0f});
+         }},
+        {"add_impulse",
+         [&] {
+             world.add_impulse(box, {0.0f, 1.0f, 0.0f});
+         }},
+        {"set_velocity",
+         [&] {
+             world.set_velocity(box, {{0.0f, 0.01f, 0.0f}, {}});
+         }},
         {"set_pose", [&] { world.set_pose(box, world.pose(box)); }},
         {"set_material", [&] { world.set_material(box, world.material(box)); }},
         {"the ground's set_material", [&] { world.set_material(made.floor, world.material(made.floor)); }},
@@ -188,10 +200,14 @@ TEST_P(Sleep, what_loses_its_support_falls) {
     const std::vector<std::pair<const char*, void (*)(Sleepers&)>> ways{
         {"the ground is removed", [](Sleepers& made) { made.world.remove(made.floor); }},
         {"the ground is moved away",
-         [](Sleepers& made) { made.world.set_pose(made.floor, {{0.0f, -60.0f, 0.0f}, {}}); }},
+         [](Sleepers& made) {
+             made.world.set_pose(made.floor, {{0.0f, -60.0f, 0.0f}, {}});
+         }},
         {"the lowest box is removed", [](Sleepers& made) { made.world.remove(made.stack[0]); }},
         {"the lowest box is moved away",
-         [](Sleepers& made) { made.world.set_pose(made.stack[0], {{0.0f, 30.0f, 0.0f}, {}}); }},
+         [](Sleepers& made) {
+             made.world.set_pose(made.stack[0], {{0.0f, 30.0f, 0.0f}, {}});
+         }},
     };
     for (const auto& [name, remove_support] : ways) {
         SCOPED_TRACE(name);

@@ -22,11 +22,11 @@ struct StepReport {
     std::uint32_t colours = 0;            ///< batches of the constraint graph
     std::uint32_t substeps = 0;           ///< most that an island had
     std::uint32_t overflow_manifolds = 0; ///< without a colour, solved one at a time
-    std::uint32_t hubs = 0;          ///< bodies with so many contacts that each is solved with a share of their mass
-    std::uint32_t frozen_bodies = 0; ///< bodies whose velocity became non-finite, in all steps so far
+    std::uint32_t hubs = 0;            ///< bodies with so many contacts that each is solved with a share of their mass
+    std::uint32_t frozen_bodies = 0;   ///< bodies whose velocity became non-finite, in all steps so far
     std::uint32_t sleeping_bodies = 0; ///< see Settings::sleeping
-    std::uint32_t growths = 0;       ///< steps done again with larger buffers or more launches, so far
-    std::uint32_t dispatches = 0;    ///< launches of kernels that the host gave
+    std::uint32_t growths = 0;         ///< steps done again with larger buffers or more launches, so far
+    std::uint32_t dispatches = 0;      ///< launches of kernels that the host gave
     BroadPhase broad_phase = BroadPhase::Auto; ///< what found the pairs; Auto before the first step
     double step_ms = 0.0;         ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
     std::vector<double> stage_ms; ///< one a stage, in the order of stage_names(); empty unless profiled
@@ -142,8 +142,8 @@ public:
 
     /// Whether a body slept in the last step (see Settings::sleeping); waits for it. Only rigid bodies ever do.
     bool is_asleep(BodyId) const;
-    /// Wakes a body, with its island, and what touches it: with the next step they begin their rest anew. All calls that
-    /// change a body do so. Without effect where all is awake.
+    /// Wakes a body, with its island, and what touches it: with the next step they begin their rest anew. All calls
+    /// that change a body do so. Without effect where all is awake.
     void wake(BodyId);
 
     /// Factor on the world's gravity.

@@ -15,8 +15,8 @@ static void report_contacts_on_cpu(CpuState& state, const Launch& launch) {
         const uint old_index = find_old_manifold(state, manifold.body_a, manifold.body_b);
         const bool touched = old_index != k_none && state.old_contact_states[old_index] == k_contact_touches;
 
-        const bool asleep = is_active(manifold) && (is_asleep(state.poses[manifold.body_a]) ||
-                                                    is_asleep(state.poses[manifold.body_b]));
+        const bool asleep =
+            is_active(manifold) && (is_asleep(state.poses[manifold.body_a]) || is_asleep(state.poses[manifold.body_b]));
         vec4 impulse(0.0f);
         if (is_active(manifold) && !asleep) impulse = state.contact_impulses[pair].normal_impulse;
         ContactReport report = make_report(manifold, touched ? k_phase_persist : k_phase_begin);

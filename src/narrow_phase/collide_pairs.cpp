@@ -38,8 +38,8 @@ bool sleeps(const CpuState& state, const Pair& pair) {
     const auto is_left_alone = [&](uint body) {
         return engine::is_left_alone(state.poses[body], state.velocities[body], state.shapes[body]);
     };
-    return (is_asleep(state.poses[pair.body_a]) || is_asleep(state.poses[pair.body_b])) &&
-           is_left_alone(pair.body_a) && is_left_alone(pair.body_b);
+    return (is_asleep(state.poses[pair.body_a]) || is_asleep(state.poses[pair.body_b])) && is_left_alone(pair.body_a) &&
+           is_left_alone(pair.body_b);
 }
 
 void keep_manifold(CpuState& state, uint pair_index, uint old_index) {

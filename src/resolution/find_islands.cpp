@@ -20,8 +20,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
     const auto movable = [&](uint body) { return is_movable(state.shapes[body]); };
     std::vector<bool> touches(body_count, false), restless(body_count);
     for (uint body = 0; body < body_count; ++body)
-        restless[body] =
-            is_restless(state.poses[body], state.velocities[body], state.shapes[body], state.parameters);
+        restless[body] = is_restless(state.poses[body], state.velocities[body], state.shapes[body], state.parameters);
     // One island of all that is awake: which that is the true islands tell, where anything may sleep.
     const bool join = !one_island || state.parameters.rest_steps > 0;
     for (uint pair = 0; pair < pair_count && join; ++pair) {

@@ -182,8 +182,8 @@ inline std::uint32_t integrate_bodies(const CpuState& state, std::uint32_t subst
         const std::uint32_t body = bodies[lane] = indices[lane < count ? lane : 0];
         const std::uint32_t substeps = state.inertias.data[body].substeps, bit = 1u << lane;
         const std::uint32_t kind = state.shapes.data[body].type >> 8 & 255u; // see kind_of
-        if (lane >= count || substep > substeps || (kind != k_kind_rigid && kind != k_kind_kinematic) ||
-            (state.poses.data[body].flags & k_body_frozen) != 0)
+        if (lane >= count || substep > substeps || substeps == 0 ||
+            (kind != k_kind_rigid && kind != k_kind_kinematic) || (state.poses.data[body].flags & k_body_frozen) != 0)
             continue;
         active |= bit;
         if (substep == substeps) ending |= bit;

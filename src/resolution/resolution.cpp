@@ -49,8 +49,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                          .slot = k_dispatch_pair_tiles});
     if (plan.needs_launches())
         find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
-    device.run(
-        {.kernel = plan_colours, .items = 1, .args = {plan.measures_islands(), plan.needs_launches()}});
+    device.run({.kernel = plan_colours, .items = 1, .args = {plan.measures_islands(), plan.needs_launches()}});
 }
 
 void prepare(Device& device, const StepPlan& plan) {

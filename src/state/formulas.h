@@ -19,8 +19,8 @@ namespace talus::engine {
 #include "state/dispatch.shared.glsl"
 
 #include "broad_phase/aabb.shared.glsl"
-#include "resolution/sleep.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
+#include "resolution/sleep.shared.glsl"
 
 #include "broad_phase/curve.shared.glsl"
 #include "broad_phase/tree.shared.glsl"
