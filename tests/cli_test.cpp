@@ -174,6 +174,17 @@ TEST_F(Program, state_and_recording_agree) {
     }
 }
 
+TEST_F(Program, says_what_sleeps) {
+    const Ending ending = run_on_cpu("stack:height=4 --steps 180 --sleeping --state state.json --report report.json");
+    ASSERT_EQ(ending.status, 0) << ending.errors;
+    EXPECT_NE(ending.output.find("4 asleep"), std::string::npos) << ending.output;
+    const json state = json_of("state.json"), report = json_of("report.json");
+    for (const json& body : state["bodies"])
+        EXPECT_EQ(body["sleeping"], body["kind"] == "dynamic") << body["name"];
+    EXPECT_EQ(report["sleeping"], true);
+    EXPECT_EQ(report["bodies"]["sleeping"], 4);
+}
+
 TEST_F(Program, an_interrupted_run_leaves_no_file) {
     const Ending ending = shell("timeout -s INT 1 '" TALUS_PROGRAM_FILE "' run --device cpu stack --steps 100000000 "
                                 "--report report.json --record run.rec --quiet");
