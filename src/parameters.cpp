@@ -16,7 +16,7 @@ constexpr float k_speculative_distance = 0.02f;
 constexpr float k_baumgarte_slop = 0.005f;
 
 // What stays where it is may be so many times as fast as what goes somewhere, and still be said to rest.
-constexpr float k_jitter = 25.0f;
+constexpr float k_jitter = 10.0f;
 
 // Loads are counted in weights; without gravity, in those of the Earth (m/s²).
 constexpr float k_standard_gravity = 9.81f;
@@ -30,7 +30,7 @@ Passes passes_of(const Settings& settings) {
 
 /// At least one, so that what begins at rest still falls; and no more than a body can count.
 static uint rest_steps_of(const Settings& settings) {
-    constexpr uint most = ~0u >> k_rest_shift;
+    constexpr uint most = (~0u >> k_rest_shift) / 2; // a body counts to twice as many
     return std::clamp(static_cast<uint>(std::ceil(settings.sleep_time / settings.dt)), 1u, most);
 }
 

@@ -42,8 +42,8 @@ void main()
         moved.flags = count_rest(moved.flags, parameters);
     } else {
         moved.flags = wake_flags(moved.flags);
-        if (may_rest) rests[body] = pack(begin_rest(moved));
     }
+    if (may_rest && measures_anew(moved.flags, parameters)) rests[body] = pack(begin_rest(moved));
     if (is_finite_motion(moved, unpack(velocities[body]))) {
         poses[body] = pack(moved);
     } else {

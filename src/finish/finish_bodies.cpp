@@ -24,8 +24,8 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
             moved.flags = count_rest(moved.flags, p);
         } else {
             moved.flags = wake_flags(moved.flags);
-            if (may_rest) state.rests[body] = begin_rest(moved);
         }
+        if (may_rest && measures_anew(moved.flags, p)) state.rests[body] = begin_rest(moved);
         if (is_finite_motion(moved, state.velocities[body])) {
             pose = moved;
         } else {

@@ -30,7 +30,7 @@ inline uint sleep_flags(uint flags, bool asleep) { return asleep ? flags | k_bod
 // Of a body that has to begin its rest anew.
 inline uint wake_flags(uint flags) { return flags & ((1u << k_rest_shift) - 1u) & ~k_body_asleep; }
 
-// Where a body's rest begins.
+// From where a body's way is measured.
 inline BodyRest begin_rest(BodyPose pose)
 {
     BodyRest rest;
@@ -40,16 +40,17 @@ inline BodyRest begin_rest(BodyPose pose)
     return rest;
 }
 
-// How far a body, or at most a point of it, comes by a movement and a turn, which is small.
+// How far a body, or at most a point of it, comes by a movement and a turn, which is small. A sphere's turn changes
+// nothing for others.
 inline float way_of(vec3 movement, vec4 turn, BodyShape shape)
 {
-    float reach = is_sphere(shape) ? shape.half_extents.x : length3(shape.half_extents);
+    float reach = is_sphere(shape) ? 0.0f : length3(shape.half_extents);
     float half_angle = length3(vec3(turn.x, turn.y, turn.z));
     precise float way = length3(movement) + 2.0f * half_angle * reach;
     return way;
 }
 
-// Whether a body is no longer where its rest began, or moved too fast in this step to be said to rest.
+// Whether a body has gone too far from where its rest began, or of late, or moved too fast in this step to be said to rest.
 inline bool ends_rest(BodyPose pose, BodyDelta delta, BodyRest rest, BodyShape shape, Parameters p)
 {
     precise vec3 movement = pose.position - rest.position;
@@ -58,9 +59,18 @@ inline bool ends_rest(BodyPose pose, BodyDelta delta, BodyRest rest, BodyShape s
     return !(way <= p.rest_distance && way_of(delta.position, delta.rotation, shape) <= p.rest_way);
 }
 
-// The flags after another step of rest.
+// The flags after another step of rest. What has rested for long enough counts on from there, to measure its way anew
+// after as long again.
 inline uint count_rest(uint flags, Parameters p)
 {
-    uint steps = min((flags >> k_rest_shift) + 1u, p.rest_steps);
+    uint steps = (flags >> k_rest_shift) + 1u;
+    if (steps >= 2u * p.rest_steps) steps = p.rest_steps;
     return (flags & ((1u << k_rest_shift) - 1u)) | (steps << k_rest_shift);
+}
+
+// Whether a body's way is measured from here on: its rest has ended, or lasted long enough once more.
+inline bool measures_anew(uint flags, Parameters p)
+{
+    uint steps = flags >> k_rest_shift;
+    return steps == 0u || steps == p.rest_steps;
 }
