@@ -113,7 +113,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
     curves->excludes(churn);
     for (CLI::Option* other :
          {repeats, stages, peer, json, against, command.get_option("--iterations"), command.get_option("--substeps"),
-          command.get_option("--stabilisation"), command.get_option("--solve-order")})
+          command.get_option("--stabilisation"), command.get_option("--solve-order"), command.get_option("--sleeping")})
         curves->excludes(other);
 }
 

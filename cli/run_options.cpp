@@ -126,6 +126,7 @@ void add_solver_options(CLI::App& command, SimulationOptions& options) {
                "How a pass goes through the contacts: in batches that share no body, or one after the other");
     add_choice(command, "--broad-phase", options.broad_phase, broad_phase_words(),
                "How pairs are found: sweep and prune, a tree of bounding boxes, every pair, or what is fastest");
+    command.add_flag("--sleeping", options.sleeping, "Let islands at rest sleep until something touches them");
 }
 
 void add_overlay_option(CLI::App& command, render::Overlays& overlays) {
@@ -173,6 +174,7 @@ Settings settings_of(const scenes::Scene& scene, const SimulationOptions& option
     if (options.substeps) settings.substeps = settings.max_substeps = *options.substeps;
     if (options.solve_order) settings.solve_order = *options.solve_order;
     if (options.broad_phase) settings.broad_phase = *options.broad_phase;
+    if (options.sleeping) settings.sleeping = true;
     if (options.stabilisation) {
         settings.stabilisation = *options.stabilisation;
         if (settings.stabilisation == Stabilisation::Baumgarte) settings.iterations = k_baumgarte_iterations;

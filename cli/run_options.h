@@ -28,6 +28,7 @@ struct SimulationOptions {
     std::optional<Stabilisation> stabilisation;
     std::optional<BroadPhase> broad_phase;
     std::optional<SolveOrder> solve_order;
+    bool sleeping = false; ///< islands may sleep, whatever the scene has
 };
 
 /// Files to write; an empty path is not written.

@@ -55,8 +55,7 @@ std::string state_json(const TimedRun& run) {
         append_numbers(out, "rotation", {rotation.x, rotation.y, rotation.z, rotation.w});
         append_numbers(out, "linear_velocity", {linear.x, linear.y, linear.z});
         append_numbers(out, "angular_velocity", {angular.x, angular.y, angular.z});
-        // No body is put to sleep by this version of the engine.
-        out.append(std::string_view(", \"sleeping\": false}"));
+        fmt::format_to(std::back_inserter(out), ", \"sleeping\": {}}}", world.is_asleep(ids[i]));
     }
     out.append(std::string_view("\n]\n}\n"));
     return fmt::to_string(out);

@@ -92,7 +92,10 @@ std::string summary_of(const RunReport& report, bool stages) {
                                      length_text(quality.max_drift_sideways)));
     text += row("motion", fmt::format("kinetic energy {:.4g} J, largest speed {:.4g} m/s", quality.kinetic_energy,
                                       quality.max_speed));
-    text += row("bodies", fmt::format("{} escaped, {} not finite", quality.escaped_bodies, report.nonfinite_bodies()));
+    text += row("bodies",
+                fmt::format("{} escaped, {} not finite{}", quality.escaped_bodies, report.nonfinite_bodies(),
+                            report.settings.sleeping ? fmt::format(", {} asleep", report.last_step.sleeping_bodies)
+                                                     : std::string()));
     text += row("memory", fmt::format("{:.1f} MiB on the device, {:.1f} MiB on the host",
                                       static_cast<double>(report.memory.device) / (1 << 20),
                                       static_cast<double>(report.memory.host) / (1 << 20)));

@@ -16,6 +16,7 @@ constexpr glm::vec3 k_yellow{1.0f, 0.62f, 0.02f};
 constexpr glm::vec3 k_blue{0.02f, 0.16f, 0.95f};
 constexpr glm::vec3 k_violet{0.42f, 0.05f, 0.75f};
 constexpr glm::vec3 k_red{0.700f, 0.060f, 0.045f};
+constexpr glm::vec3 k_grey{0.22f, 0.24f, 0.27f};
 constexpr float k_velocity_time = 0.25f; // s
 
 glm::vec3 to_glm(Vec3 v) {
@@ -125,6 +126,8 @@ std::vector<std::uint32_t> tints_of(const World& world, std::span<const Contact>
         for (const BodyId id : bodies)
             if (const std::uint32_t leader = islands.leader(id.index); sizes[leader] > 1)
                 tints[id.index] = pack_colour(0.6f * colour_of_number(leader));
+        for (const BodyId id : bodies)
+            if (world.is_asleep(id)) tints[id.index] = pack_colour(k_grey);
     }
     if (overlays.pairs) {
         for (const CollisionPair& pair : world.collision_pairs())

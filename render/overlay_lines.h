@@ -35,7 +35,7 @@ void add_velocity_lines(std::vector<Line>&, const World&, float typical_size);
 void add_arrow(std::vector<Line>&, glm::vec3 from, glm::vec3 to, std::uint32_t colour);
 
 /// A colour for each body slot, 0 where a body keeps its own: rigid and kinematic bodies in a pair red, islands of more
-/// than one body each in a colour.
+/// than one body each in a colour, what sleeps in grey.
 std::vector<std::uint32_t> tints_of(const World&, std::span<const Contact>, const Overlays&, std::uint32_t slot_count);
 
 } // namespace talus::render

@@ -13,7 +13,7 @@ std::span<const OverlayInfo> list_overlays() {
         {"aabbs", &Overlays::aabbs, "bounding boxes along the world's axes"},
         {"pairs", &Overlays::pairs, "bodies in a candidate pair: red"},
         {"colours", &Overlays::colours, "contacts as lines between bodies, in the colour of their batch"},
-        {"islands", &Overlays::islands, "bodies that contacts join, in one colour"},
+        {"islands", &Overlays::islands, "bodies that contacts join, in one colour; what sleeps in grey"},
         {"velocities", &Overlays::velocities, "the way of a quarter of a second: blue; axes of rotation: violet"},
         {"wireframe", &Overlays::wireframe, "edges alone"},
         {"transparent", &Overlays::transparent, "static bodies let what is behind them through"},

@@ -146,6 +146,13 @@ void BodyTable::remove(BodyId id) {
     --present_count;
     resting_slots.push_back(slot);
     mark(slot, k_dirty_shape | k_dirty_velocity);
+    waking = std::max(waking, Waking::Disturbed);
+}
+
+void BodyTable::disturb(uint slot) {
+    loads[slot].disturbed = 1;
+    mark(slot, k_dirty_load);
+    waking = std::max(waking, Waking::Disturbed);
 }
 
 void BodyTable::set_sensor(uint slot, bool wanted) {
@@ -183,6 +190,10 @@ void BodyTable::restore(const BodyTable& saved) {
     loaded.clear();
     for (uint slot = 0; slot < slot_count(); ++slot)
         mark(slot, k_dirty_all);
+    // Where the caller has changed something since the last step.
+    const bool disturbed =
+        !resting_slots.empty() || std::ranges::any_of(loads, [](const BodyLoad& load) { return load.disturbed != 0; });
+    waking = disturbed ? Waking::Disturbed : Waking::None;
 }
 
 std::string BodyTable::complete() {

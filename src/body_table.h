@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <talus/types.h>
@@ -64,6 +65,11 @@ public:
     template <typename Table, typename Visit> static void visit_lists(Table& table, const Visit& visit);
 
     void mark(uint slot, std::uint8_t what);
+    /// The body, and what touches it, is to wake in the next step.
+    void disturb(uint slot);
+    /// What the bodies that were disturbed or removed since the last call ask for.
+    Waking take_waking() { return std::exchange(waking, Waking::None); }
+    void wake_all() { waking = Waking::All; }
     /// What has been marked, with the records as they are now; the table then counts as known to the device.
     BodyChanges take_changes();
     /// Whether the host has changed records of this kind that the device does not know yet.
@@ -103,6 +109,7 @@ private:
     std::vector<uint> free_slots;
     std::vector<uint> resting_slots;
     std::size_t present_count = 0;
+    Waking waking = Waking::None;
 };
 
 template <typename Table, typename Visit> void BodyTable::visit_lists(Table& table, const Visit& visit) {

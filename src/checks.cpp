@@ -153,6 +153,8 @@ void check_settings(const Settings& settings) {
     check_range(settings.restitution_threshold, 0.0f, 1.0e4f, where, "restitution_threshold", " m/s");
     check_range(settings.max_linear_speed, 1.0e-3f, 1.0e5f, where, "max_linear_speed", " m/s");
     check_range(settings.max_angular_speed, 1.0e-3f, 1.0e5f, where, "max_angular_speed", " rad/s");
+    check_range(settings.sleep_speed, 0.0f, 1.0e3f, where, "sleep_speed", " m/s");
+    check_range(settings.sleep_time, 0.0f, 10.0f, where, "sleep_time", " s");
     if (settings.broad_phase > BroadPhase::Brute)
         refuse(where, "broad_phase is none of Auto, SweepAndPrune, Bvh and Brute");
     if (settings.solve_order > SolveOrder::Sequential) refuse(where, "solve_order is none of Coloured and Sequential");

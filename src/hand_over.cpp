@@ -24,8 +24,11 @@ uint counter(Device& device, uint word) {
 
 } // namespace
 
-void hand_over_bodies(Device& from, Device& to, const StepPlan& plan) {
+void hand_over_counters(Device& from, Device& to) {
     lend(from, to, BufferId::Counters, k_counter_words);
+}
+
+void hand_over_bodies(Device& from, Device& to, const StepPlan& plan) {
     lend(from, to, BufferId::Poses, plan.body_count);
     lend(from, to, BufferId::Velocities, plan.body_count);
 }

@@ -9,7 +9,9 @@ namespace talus::engine {
 
 struct StepPlan;
 
-/// Poses, velocities and counters, before the broad phase.
+/// Counters, before all else: whether the step before has fitted.
+void hand_over_counters(Device& from, Device& to);
+/// Poses and velocities, before the broad phase.
 void hand_over_bodies(Device& from, Device& to, const StepPlan&);
 /// Counters, launches and manifolds, after the narrow phase. Waits for it.
 void hand_over_manifolds(Device& from, Device& to);

@@ -2,6 +2,7 @@
 #include "parameters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -14,6 +15,9 @@ constexpr float k_speculative_distance = 0.02f;
 // Overlap that Baumgarte's bias leaves alone, so that contacts at rest do not come and go (m).
 constexpr float k_baumgarte_slop = 0.005f;
 
+// What stays where it is may be so many times as fast as what goes somewhere, and still be said to rest.
+constexpr float k_jitter = 10.0f;
+
 // Loads are counted in weights; without gravity, in those of the Earth (m/s²).
 constexpr float k_standard_gravity = 9.81f;
 
@@ -22,6 +26,12 @@ constexpr float k_standard_gravity = 9.81f;
 Passes passes_of(const Settings& settings) {
     if (settings.stabilisation == Stabilisation::Baumgarte) return {1, 1, settings.iterations, false};
     return {settings.substeps, std::max(settings.substeps, settings.max_substeps), settings.iterations, true};
+}
+
+/// At least one, so that what begins at rest still falls; and no more than a body can count.
+static uint rest_steps_of(const Settings& settings) {
+    constexpr uint most = (~0u >> k_rest_shift) / 2; // a body counts to twice as many
+    return std::clamp(static_cast<uint>(std::ceil(settings.sleep_time / settings.dt)), 1u, most);
 }
 
 Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
@@ -59,6 +69,9 @@ Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
     p.usable_colours = coloured ? k_first_hub_colour : 0;
     p.hub_contacts = coloured && !plan.bounces ? settings.hub_contacts : k_none;
     p.hub_capacity = plan.hub_capacity;
+    p.rest_steps = settings.sleeping ? rest_steps_of(settings) : 0;
+    p.rest_distance = settings.sleep_speed * settings.dt * static_cast<float>(rest_steps_of(settings));
+    p.rest_way = k_jitter * settings.sleep_speed * settings.dt;
     return p;
 }
 

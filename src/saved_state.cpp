@@ -10,23 +10,30 @@
 
 namespace talus::engine {
 
-static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 9,
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 10,
               "another buffer survives the step: snapshots have to hold it too");
 
 std::size_t SavedState::bytes() const {
     std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
-                      impulses.size() * sizeof(float) + contact_states.size() * sizeof(uint);
+                      impulses.size() * sizeof(float) + contact_states.size() * sizeof(uint) +
+                      rests.size() * sizeof(BodyRest);
     BodyTable::visit_lists(table, [&](const auto& list) { sum += list.size() * sizeof list[0]; });
     return sum;
 }
 
 SavedState save_state(Simulation& simulation, const BodyTable& table, const Settings& settings) {
     ContactRecords contacts = read_contacts(simulation);
-    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}};
+    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}, {}};
     if (simulation.watches_contacts()) {
         saved.contact_states.resize(contacts.manifolds.size());
         simulation.state_device().read(std::array{ReadRequest{
             BufferId::OldContactStates, saved.contact_states.size() * sizeof(uint), saved.contact_states.data()}});
+    }
+    if (settings.sleeping) {
+        Device& device = simulation.state_device();
+        saved.rests.resize(saved.table.slot_count());
+        const std::size_t bytes = std::min(saved.rests.size() * sizeof(BodyRest), device.size(BufferId::Rests));
+        device.read(std::array{ReadRequest{BufferId::Rests, bytes, saved.rests.data()}});
     }
     simulation.state_device().read(std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters}});
     // The table may have given up slots since the last step.
@@ -47,10 +54,14 @@ void Simulation::restore(const SavedState& saved) {
     const auto pair_count = static_cast<uint>(saved.manifolds.size());
     reserve_bodies(saved.table.slot_count());
     reserve_pairs(pair_count);
+    if (!saved.rests.empty()) grow_everywhere(BufferId::Rests, body_capacity);
 
     std::vector<Pair> pairs;
     std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
     std::vector<ContactConstraint> constraints; // only what read_contacts reads: the next step makes them anew
+    const auto sleeps = [&](const Manifold& manifold) {
+        return is_asleep(saved.table.poses[manifold.body_a]) || is_asleep(saved.table.poses[manifold.body_b]);
+    };
     std::size_t next = 0;
     for (uint i = 0; i < pair_count; ++i) {
         const Manifold& manifold = saved.manifolds[i];
@@ -61,7 +72,7 @@ void Simulation::restore(const SavedState& saved) {
             points[std::size_t{4} * i + k] = saved.points[next];
             constraint.total_impulse[static_cast<int>(k)] = saved.impulses[next];
         }
-        if (is_active(manifold)) constraints.push_back(constraint); // a sensor's contact is not solved
+        if (is_active(manifold) && !sleeps(manifold)) constraints.push_back(constraint); // others are not solved
     }
     const auto write_all = [this](BufferId buffer, const auto& records) {
         if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));
@@ -71,6 +82,7 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::OldManifoldPoints, points);
     write_all(BufferId::Constraints, constraints);
     write_all(BufferId::Counters, saved.counters);
+    write_all(BufferId::Rests, saved.rests);
     if (watches_contacts()) {
         std::vector<uint> states = saved.contact_states;
         states.resize(pair_count, k_contact_apart);
@@ -81,6 +93,7 @@ void Simulation::restore(const SavedState& saved) {
 
     finished_count = saved.report.step;
     newest_report = saved.report;
+    solved_count = static_cast<uint>(constraints.size());
     newest_report.growths = growths;
     newest_has_poses = false;
 }

@@ -22,6 +22,7 @@ struct SavedState {
     std::vector<ManifoldPoint> points; ///< of the manifolds in turn, as many as each has
     std::vector<float> impulses;       ///< N·s along the normal, one a point: of the whole step, hits included
     std::vector<uint> contact_states;  ///< k_contact_*, one a pair; empty where no contacts were watched
+    std::vector<BodyRest> rests;       ///< one a body slot; empty where nothing may sleep
 
     std::size_t bytes() const;
 };

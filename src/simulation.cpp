@@ -112,6 +112,7 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::SweepAxes, 1);
     grow_everywhere(BufferId::TreeGrids, 1);
     grow_everywhere(BufferId::HubChanges, 1);
+    grow_everywhere(BufferId::Rests, 1);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
     // Reports stay within the memory of the host where the resolution runs there.
@@ -141,6 +142,7 @@ void Simulation::reserve_bodies(uint count) {
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
+    if (settings.sleeping) grow_everywhere(BufferId::Rests, capacity);
     body_capacity = capacity;
 }
 
@@ -198,6 +200,7 @@ void Simulation::write_behind_steps(BufferId buffer, std::size_t offset, std::sp
 }
 
 void Simulation::set_settings(const Settings& wanted) {
+    if (wanted.sleeping) grow_everywhere(BufferId::Rests, body_capacity);
     settings = wanted;
 }
 
@@ -206,7 +209,9 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     while (pending.size() >= k_most_pending)
         finish_oldest();
     transferred.to_device += bytes_of(changes);
-    enqueue({0, population, with_poses, std::move(changes)});
+    Population asked = population;
+    asked.waking = std::max(asked.waking, std::exchange(owed_waking, Waking::None));
+    enqueue({0, asked, with_poses, std::move(changes)});
 }
 
 void Simulation::change_bodies(const Population& population, const BodyChanges& changes) {
@@ -247,12 +252,14 @@ StepPlan Simulation::plan_step(const Population& population) const {
     const bool one_group_each = now.small && plan.hub_capacity == 0;
     now.in_groups = (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
     now.bounces = population.some_bounce;
+    now.sleeping = settings.sleeping;
+    now.waking = settings.sleeping ? population.waking : Waking::None;
     now.overflow = plan.overflow || settings.solve_order == SolveOrder::Sequential;
     now.least_substeps = passes.least_substeps;
     now.most_substeps = now.small ? passes.most_substeps
                                   : std::clamp(k_most_substeps_of_large, passes.least_substeps, passes.most_substeps);
-    // None where work groups have lately done all the work.
-    const bool launches = !now.has_groups() || plan.substep_capacity > 0;
+    // None where work groups have lately done all the work, or all has slept.
+    const bool launches = !(now.has_groups() || (now.sleeping && !now.small)) || plan.substep_capacity > 0;
     now.substep_capacity = launches ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;
     if (!launches) now.colour_capacity = 0;
     return now;
@@ -314,7 +321,9 @@ void Simulation::finish_oldest() {
     StepReport& report = newest_report;
     report.step = finished_count;
     report.pairs = counters[k_counter_pair_count];
-    report.manifolds = counters[k_counter_manifold_count];
+    solved_count = counters[k_counter_manifold_count];
+    report.manifolds = solved_count + counters[k_counter_sleeping_manifolds];
+    report.sleeping_bodies = counters[k_counter_sleeping_bodies];
     report.contacts = counters[k_counter_contact_count];
     report.colours = counters[k_counter_colour_demand];
     report.hubs = counters[k_counter_hub_count];
@@ -406,8 +415,10 @@ void Simulation::redo(std::span<const uint> counters) {
         if ((reasons & k_fit_hubs) != 0) reserve_hub_manifolds(with_headroom(hub_manifolds));
     } catch (const Error&) {
         // The world is left as it was before these steps, but for what the caller has changed.
-        for (const Pending& entry : again)
+        for (const Pending& entry : again) {
             apply_now(entry.population, entry.changes);
+            owed_waking = std::max(owed_waking, entry.population.waking);
+        }
         throw;
     }
     for (Pending& entry : again)

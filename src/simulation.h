@@ -64,6 +64,8 @@ public:
     std::uint64_t step_count() const { return finished_count + pending.size(); }
     /// Of the newest finished step.
     const StepReport& report() const { return newest_report; }
+    /// Constraints that the newest finished step has solved.
+    uint solved_manifolds() const { return solved_count; }
     /// Collects what has finished meanwhile, without waiting.
     void poll();
     /// The newest finished step's poses as they came through the ring; empty if it was not asked for them.
@@ -126,6 +128,8 @@ private:
     uint window_substeps = 0;
     uint window_hub_manifolds = 0;
     StepReport newest_report;
+    uint solved_count = 0;
+    Waking owed_waking = Waking::None; ///< of changes before steps that were given up
     Ticket newest_ticket = 0;
     bool newest_has_poses = false;
     std::vector<StepReports> reports;

@@ -3,9 +3,11 @@
 // describes the format; the two files change together, with k_version.
 #include <talus/snapshot.h>
 
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -27,14 +29,14 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 1;
+constexpr std::uint32_t k_version = 2;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
 static_assert(std::endian::native == std::endian::little, "records are written as they lie in memory");
 // A member more has to be written, or to follow from others, and k_version to be raised.
-static_assert(sizeof(Settings) == 72);
-static_assert(sizeof(BodyTable) == 15 * sizeof(std::vector<int>) + 2 * sizeof(uint) + sizeof(std::size_t));
+static_assert(sizeof(Settings) == 84 && offsetof(Settings, sleeping) == 80);
+static_assert(sizeof(BodyTable) == 15 * sizeof(std::vector<int>) + 2 * sizeof(uint) + 2 * sizeof(std::size_t));
 
 class Writer {
 public:
@@ -81,13 +83,27 @@ private:
     std::string_view rest;
 };
 
+/// All numbers as they lie in memory, but for the last member, which is not as large as a word.
+template <typename File, typename S> void visit_settings(File& file, S& settings) {
+    std::array<std::byte, offsetof(Settings, sleeping)> numbers;
+    std::memcpy(numbers.data(), &settings, sizeof numbers);
+    std::uint32_t sleeping = settings.sleeping ? 1 : 0;
+    file.value(numbers);
+    file.value(sleeping);
+    if (sleeping > 1) throw Error("its settings are wrong");
+    if constexpr (!std::is_const_v<S>) {
+        std::memcpy(static_cast<void*>(&settings), numbers.data(), sizeof numbers);
+        settings.sleeping = sleeping == 1;
+    }
+}
+
 /// What a file holds, in order: for writing and for reading.
 template <typename File, typename State> void visit(File& file, State& state) {
-    file.value(state.settings);
+    visit_settings(file, state.settings);
     auto& report = state.report;
     file.value(report.step);
     for (auto* count : {&report.pairs, &report.manifolds, &report.contacts, &report.colours, &report.substeps,
-                        &report.overflow_manifolds, &report.hubs, &report.frozen_bodies})
+                        &report.overflow_manifolds, &report.hubs, &report.frozen_bodies, &report.sleeping_bodies})
         file.value(*count);
     file.value(state.counters);
     BodyTable::visit_lists(state.table, [&](auto& list) { file.list(list); });
@@ -95,6 +111,7 @@ template <typename File, typename State> void visit(File& file, State& state) {
     file.list(state.points);
     file.list(state.impulses);
     file.list(state.contact_states);
+    file.list(state.rests);
 }
 
 /// A file may have been made by anyone: indices that lead out of a list are refused here.
@@ -120,8 +137,8 @@ void check(SavedState& state) {
         throw Error("it has not as many points as its manifolds say");
     if (report.pairs != state.manifolds.size() || report.manifolds != touching || report.contacts != solved_count ||
         (!state.contact_states.empty() && state.contact_states.size() != report.pairs) ||
-        counters[k_counter_did_not_fit] != 0 || counters[k_counter_body_count] > slots ||
-        counters[k_counter_old_pair_count] != report.pairs)
+        (!state.rests.empty() && state.rests.size() != slots) || counters[k_counter_did_not_fit] != 0 ||
+        counters[k_counter_body_count] > slots || counters[k_counter_old_pair_count] != report.pairs)
         throw Error("its counts do not go together");
 }
 

@@ -34,9 +34,11 @@ void run_stage(Device& device, Stage stage, const StepPlan& plan) {
 
 Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses, const BodyChanges& changes) {
     apply_changes(*placement.resolution, changes);
+    wake(*placement.resolution, plan);
     if (placement.hybrid()) {
-        hand_over_bodies(*placement.resolution, *placement.detection, plan);
+        hand_over_counters(*placement.resolution, *placement.detection);
         apply_changes(*placement.detection, changes);
+        hand_over_bodies(*placement.resolution, *placement.detection, plan); // who has been woken, too
     }
     for (std::size_t i = 0; i < k_stage_count; ++i) {
         const Stage stage{static_cast<int>(i)};

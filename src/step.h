@@ -7,11 +7,15 @@
 
 namespace talus::engine {
 
+/// Which bodies the caller wakes before a step.
+enum class Waking : std::uint8_t { None, Disturbed, All };
+
 /// What the host knows of the bodies.
 struct Population {
     uint slots = 0;           ///< body slots in use, holes included
     bool some_bounce = false; ///< there is a restitution above 0
     bool some_kinematic = false;
+    Waking waking = Waking::None;
 };
 
 /// What the host knows of a step before it runs: how large launches may be, and which passes there are.
@@ -31,12 +35,16 @@ struct StepPlan {
     uint substep_capacity = 1; ///< sub-steps that get launches: some, until it is known that none are needed
     uint iterations = 0;
     bool relax = false;
-    bool bounces = false; ///< some body has a restitution above 0
+    bool bounces = false;  ///< some body has a restitution above 0
+    bool sleeping = false; ///< islands may sleep
+    Waking waking = Waking::None;
     ContactWatch watch = ContactWatch::None;
     uint report_room = k_none; ///< contact events that leave with the step
 
     /// Islands are found, and each has sub-steps of its own.
     bool has_islands() const { return small || !one_island; }
+    /// In a large world; also where no more is wanted of them than whether they sleep.
+    bool measures_islands() const { return !small && (!one_island || sleeping); }
     bool has_groups() const { return in_groups && !small; }
     bool needs_launches() const { return !(in_groups && small); }
 };

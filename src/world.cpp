@@ -31,6 +31,7 @@ struct World::Impl {
         const CallersContext callers(own_context);
         simulation.settle();
         simulation.set_settings(wanted);
+        if (wanted != settings) table.wake_all(); // gravity may be another, and more
         settings = wanted;
     }
 
@@ -87,10 +88,16 @@ struct World::Impl {
         collect_events();
     }
 
+    /// For changing a body: the change will reach the device, and wakes what sleeps.
+    void touch(uint slot, std::uint8_t what) {
+        table.mark(slot, what);
+        if (settings.sleeping) table.disturb(slot);
+    }
+
     /// For giving a body a velocity: one that was frozen moves again.
     void thaw(uint slot) {
         refresh();
-        table.mark(slot, k_dirty_pose | k_dirty_velocity);
+        touch(slot, k_dirty_pose | k_dirty_velocity);
         table.poses[slot].flags &= ~k_body_frozen;
         table.velocities[slot].inverse_mass = table.properties[slot].inverse_mass;
     }
@@ -106,7 +113,9 @@ struct World::Impl {
         const CallersContext callers(own_context);
         for (std::uint32_t i = 0; i < count; ++i) {
             BodyChanges changes = take_changes();
-            simulation.step(table.population(), poses_wanted, std::move(changes));
+            Population population = table.population();
+            population.waking = table.take_waking();
+            simulation.step(population, poses_wanted, std::move(changes));
             table.forget_loads();
             table.recycle();
         }
@@ -184,6 +193,7 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
         ids.push_back(impl_->table.add(definition));
         impl_->steps_before.resize(impl_->table.slot_count());
         impl_->steps_before[ids.back().index] = step_count();
+        if (impl_->settings.sleeping) impl_->table.disturb(ids.back().index);
     }
     return ids;
 }
@@ -260,7 +270,7 @@ std::vector<Velocity> World::velocities() const {
 void World::add_force(BodyId id, Vec3 force) {
     const uint slot = impl_->rigid_slot_of(id, "add_force");
     check_finite(force, name_of("add_force", id), "force");
-    impl_->table.mark(slot, k_dirty_load);
+    impl_->touch(slot, k_dirty_load);
     impl_->table.loads[slot].force += to_glm(force);
 }
 
@@ -275,7 +285,7 @@ void World::add_force(BodyId id, Vec3 force, Vec3 point) {
 void World::add_torque(BodyId id, Vec3 torque) {
     const uint slot = impl_->rigid_slot_of(id, "add_torque");
     check_finite(torque, name_of("add_torque", id), "torque");
-    impl_->table.mark(slot, k_dirty_load);
+    impl_->touch(slot, k_dirty_load);
     impl_->table.loads[slot].torque += to_glm(torque);
 }
 
@@ -310,6 +320,17 @@ void World::add_angular_impulse(BodyId id, Vec3 impulse) {
     table.velocities[slot].angular = angular;
 }
 
+bool World::is_asleep(BodyId id) const {
+    const uint slot = impl_->slot_of(id, "is_asleep");
+    impl_->refresh();
+    return engine::is_asleep(impl_->table.poses[slot]);
+}
+
+void World::wake(BodyId id) {
+    const uint slot = impl_->slot_of(id, "wake");
+    if (impl_->settings.sleeping) impl_->table.disturb(slot);
+}
+
 float World::gravity_scale(BodyId id) const {
     return impl_->table.properties[impl_->slot_of(id, "gravity_scale")].gravity_scale;
 }
@@ -317,7 +338,7 @@ float World::gravity_scale(BodyId id) const {
 void World::set_gravity_scale(BodyId id, float scale) {
     const uint slot = impl_->slot_of(id, "set_gravity_scale");
     check_finite(scale, name_of("set_gravity_scale", id), "gravity scale");
-    impl_->table.mark(slot, k_dirty_properties);
+    impl_->touch(slot, k_dirty_properties);
     impl_->table.properties[slot].gravity_scale = scale;
 }
 
@@ -328,7 +349,7 @@ Material World::material(BodyId id) const {
 void World::set_material(BodyId id, const Material& material) {
     const uint slot = impl_->slot_of(id, "set_material");
     check_material(material, name_of("set_material", id));
-    impl_->table.mark(slot, k_dirty_properties);
+    impl_->touch(slot, k_dirty_properties);
     BodyTable& table = impl_->table;
     BodyProperties& properties = table.properties[slot];
     table.bouncing_count += (material.restitution > 0.0f) - (properties.restitution > 0.0f);
@@ -343,7 +364,7 @@ bool World::is_sensor(BodyId id) const {
 
 void World::set_sensor(BodyId id, bool wanted) {
     const uint slot = impl_->slot_of(id, "set_sensor");
-    impl_->table.mark(slot, k_dirty_shape);
+    impl_->touch(slot, k_dirty_shape);
     impl_->table.set_sensor(slot, wanted);
 }
 

@@ -83,13 +83,14 @@ TEST_F(Program, report_has_every_key) {
     EXPECT_EQ(ending.errors, "");
     const json report = json_of("report.json");
     EXPECT_EQ(keys_of(report),
-              (std::vector<std::string>{"bodies",    "broad_phase", "colours",    "contacts",    "device",
-                                        "dt",        "growths",     "iterations", "manifolds",   "memory_bytes",
-                                        "pairs",     "quality",     "scene",      "solve_order", "stabilisation",
-                                        "stages_ms", "state_hash",  "step_ms",    "steps",       "steps_per_second",
-                                        "substeps",  "threads"}));
+              (std::vector<std::string>{
+                  "bodies",  "broad_phase", "colours",          "contacts",      "device",    "dt",
+                  "growths", "iterations",  "manifolds",        "memory_bytes",  "pairs",     "quality",
+                  "scene",   "sleeping",    "solve_order",      "stabilisation", "stages_ms", "state_hash",
+                  "step_ms", "steps",       "steps_per_second", "substeps",      "threads"}));
     EXPECT_EQ(keys_of(report["device"]), (std::vector<std::string>{"driver", "kind", "name"}));
-    EXPECT_EQ(keys_of(report["bodies"]), (std::vector<std::string>{"dynamic", "kinematic", "static", "total"}));
+    EXPECT_EQ(keys_of(report["bodies"]),
+              (std::vector<std::string>{"dynamic", "kinematic", "sleeping", "static", "total"}));
     EXPECT_EQ(keys_of(report["step_ms"]), (std::vector<std::string>{"max", "mean", "median", "p95"}));
     EXPECT_EQ(keys_of(report["memory_bytes"]), (std::vector<std::string>{"device", "host"}));
     EXPECT_EQ(keys_of(report["quality"]),
@@ -171,6 +172,17 @@ TEST_F(Program, state_and_recording_agree) {
         EXPECT_EQ(body["position"][1].get<float>(), last[i].position.y);
         EXPECT_EQ(body["rotation"][3].get<float>(), last[i].rotation.w);
     }
+}
+
+TEST_F(Program, says_what_sleeps) {
+    const Ending ending = run_on_cpu("stack:height=4 --steps 180 --sleeping --state state.json --report report.json");
+    ASSERT_EQ(ending.status, 0) << ending.errors;
+    EXPECT_NE(ending.output.find("4 asleep"), std::string::npos) << ending.output;
+    const json state = json_of("state.json"), report = json_of("report.json");
+    for (const json& body : state["bodies"])
+        EXPECT_EQ(body["sleeping"], body["kind"] == "dynamic") << body["name"];
+    EXPECT_EQ(report["sleeping"], true);
+    EXPECT_EQ(report["bodies"]["sleeping"], 4);
 }
 
 TEST_F(Program, an_interrupted_run_leaves_no_file) {

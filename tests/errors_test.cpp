@@ -258,6 +258,8 @@ TEST_P(Errors, settings_out_of_range_are_refused) {
         bad_settings({"restitution_threshold"}, [](S& s) { s.restitution_threshold = -1.0f; }),
         bad_settings({"max_linear_speed"}, [](S& s) { s.max_linear_speed = 0.0f; }),
         bad_settings({"max_angular_speed"}, [](S& s) { s.max_angular_speed = k_nan; }),
+        bad_settings({"sleep_speed", "-1"}, [](S& s) { s.sleep_speed = -1.0f; }),
+        bad_settings({"sleep_time", "nan"}, [](S& s) { s.sleep_time = k_nan; }),
         bad_settings({"broad_phase"}, [](S& s) { s.broad_phase = BroadPhase{4}; }),
         bad_settings({"solve_order"}, [](S& s) { s.solve_order = SolveOrder{4}; }),
         bad_settings({"stabilisation"}, [](S& s) { s.stabilisation = Stabilisation{4}; }),

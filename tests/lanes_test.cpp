@@ -80,7 +80,7 @@ struct Items {
         const vec3 inverse_inertia = i % 3 == 0 ? vec3(6.0f) : vec3(6.0f, 5.0f + number(1.0f), 4.0f);
         properties.push_back(
             {inverse_inertia, inverse_mass, 1.0f, i % 4 == 0 ? 0.1f : 0.0f, 0.0f, 0.5f, 0.0f, 0, 0, 0});
-        loads.push_back({vector(i % 5 == 0 ? 100.0f : 0.0f), 0.0f, vector(i % 5 == 0 ? 10.0f : 0.0f), 0.0f});
+        loads.push_back({vector(i % 5 == 0 ? 100.0f : 0.0f), 0, vector(i % 5 == 0 ? 10.0f : 0.0f), 0.0f});
         inertias.push_back(world_inertia(rotation, inverse_inertia, !is_static, false, i % 7 == 6 ? 2 : 8));
         velocities.back().angular = i == 3 ? vec3(1e30f) : velocities.back().angular; // ends non-finite
         warm_starts.push_back(no_warm_start(velocities.back()));

@@ -275,6 +275,23 @@ TEST(Renderer, sensors_are_in_no_island_and_no_batch) {
     EXPECT_TRUE(lines.empty());
 }
 
+TEST(Renderer, shows_islands_that_sleep_in_grey) {
+    Settings settings;
+    settings.gravity = {};
+    settings.sleeping = true;
+    World world(settings, on(DeviceKind::Cpu));
+    for (const float x : {-0.8f, 0.8f})
+        world.add(body_at({x, 0.0f, 0.0f}));
+    world.step(60);
+    world.wake(world.bodies()[1]);
+    world.step();
+    const scenes::Camera ahead{{0.0f, 0.0f, 6.0f}, {0.0f, 0.0f, 0.0f}, 0.7f};
+    const Picture picture = Renderer(world, k_width, k_height, ahead, {.islands = true}).draw();
+    const Colour asleep = colour_at(picture, 58, 60), awake = colour_at(picture, 102, 60);
+    EXPECT_LT(std::abs(asleep.red - asleep.green) + std::abs(asleep.green - asleep.blue), 60);
+    EXPECT_TRUE(is_green(awake));
+}
+
 TEST(Renderer, shows_what_is_behind_and_within) {
     World world({}, on(DeviceKind::Cpu));
     world.add(body_at({0.0f, 0.0f, -1.0f}));

@@ -63,6 +63,7 @@ void show_settings_panel(Workbench& bench) {
     changed |= edit("passes", settings.iterations, 1, 200);
     changed |= edit("step, s", settings.dt, 1.0f / 1000.0f, 1.0f / 20.0f, "%.4f", ImGuiSliderFlags_Logarithmic);
     changed |= edit("gravity, m/s²", settings.gravity.y, -30.0f, 30.0f, "%.2f");
+    changed |= ImGui::Checkbox("islands may sleep", &settings.sleeping);
     if (changed) bench.set_settings(settings);
 }
 

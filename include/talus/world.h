@@ -20,12 +20,13 @@ struct StepReport {
     std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors
     std::uint32_t contacts = 0;           ///< contact points
     std::uint32_t colours = 0;            ///< batches of the constraint graph
-    std::uint32_t substeps = 0;           ///< most that an island had
+    std::uint32_t substeps = 0;           ///< most that an island had, or will have when it wakes
     std::uint32_t overflow_manifolds = 0; ///< without a colour, solved one at a time
-    std::uint32_t hubs = 0;          ///< bodies with so many contacts that each is solved with a share of their mass
-    std::uint32_t frozen_bodies = 0; ///< bodies whose velocity became non-finite, in all steps so far
-    std::uint32_t growths = 0;       ///< steps done again with larger buffers or more launches, so far
-    std::uint32_t dispatches = 0;    ///< launches of kernels that the host gave
+    std::uint32_t hubs = 0;            ///< bodies with so many contacts that each is solved with a share of their mass
+    std::uint32_t frozen_bodies = 0;   ///< bodies whose velocity became non-finite, in all steps so far
+    std::uint32_t sleeping_bodies = 0; ///< see Settings::sleeping
+    std::uint32_t growths = 0;         ///< steps done again with larger buffers or more launches, so far
+    std::uint32_t dispatches = 0;      ///< launches of kernels that the host gave
     BroadPhase broad_phase = BroadPhase::Auto; ///< what found the pairs; Auto before the first step
     double step_ms = 0.0;         ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
     std::vector<double> stage_ms; ///< one a stage, in the order of stage_names(); empty unless profiled
@@ -58,7 +59,9 @@ struct Transfers {
 /// OpenGL names of the buffers to draw from, without a copy. Valid until the next call that changes the world. Numbers
 /// are little-endian words of 32 bits.
 struct GlBuffers {
-    std::uint32_t poses = 0; ///< 32 bytes a body: vec3 position (m), uint flags, vec4 rotation (x, y, z, w)
+    /// 32 bytes a body: vec3 position (m), uint flags, of which bit 2 is set while the body sleeps, vec4 rotation (x,
+    /// y, z, w).
+    std::uint32_t poses = 0;
     /// 16 bytes a body: vec3 half extents (m), uint word with the shape in bits 0–7 (0 box, 1 sphere), the body's kind
     /// in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here), and bit 16 set for a sensor.
     std::uint32_t shapes = 0;
@@ -138,6 +141,12 @@ public:
     /// N·s, at a point in world space (m): turns the body too.
     void add_impulse(BodyId, Vec3 impulse, Vec3 point);
     void add_angular_impulse(BodyId, Vec3 impulse); ///< N·m·s; changes the angular velocity at once
+
+    /// Whether a body slept in the last step (see Settings::sleeping); waits for it. Only rigid bodies ever do.
+    bool is_asleep(BodyId) const;
+    /// Wakes a body, with its island, and what touches it: with the next step they begin their rest anew. All calls
+    /// that change a body do so. Without effect where all is awake.
+    void wake(BodyId);
 
     /// Factor on the world's gravity.
     float gravity_scale(BodyId) const;

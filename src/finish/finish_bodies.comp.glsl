@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: its new pose, and no load for the next step. A body that would become non-finite stays
-// where it was and is frozen. The first one also makes this step's pairs the last step's.
+// One invocation is a body slot: its new pose, for how long it has rested, and no load for the next step. A body that would
+// become non-finite stays where it was and is frozen; one that sleeps is left alone. The first one also makes this step's
+// pairs the last step's.
 // Reads: Shapes, Deltas, Counters.
-// Writes: Poses, Loads, Counters; Velocities where a body is frozen.
+// Writes: Poses, Loads, Rests, Counters; Velocities where a body is frozen.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "resolution/sleep.shared.glsl"
 #include "resolution/body.shared.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Deltas { BodyDeltaCells deltas[]; };
+layout(std430) buffer Rests { BodyRestCells rests[]; };
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
-layout(std430) writeonly buffer Loads { BodyLoadCells loads[]; };
+layout(std430) buffer Loads { BodyLoadCells loads[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
@@ -23,11 +26,24 @@ void main()
     uint body = item_index();
     if (body >= parameters.body_count) return;
     if (body == 0u) counters[k_counter_old_pair_count] = counters[k_counter_pair_count];
-    if (!is_mover(unpack(shapes[body]))) return;
-    loads[body] = pack(no_load());
     BodyPose pose = unpack(poses[body]);
-    if ((pose.flags & k_body_frozen) != 0u) return;
+    if (is_asleep(pose)) return;
+    bool moves = is_mover(unpack(shapes[body]));
+    bool disturbed = (pose.flags & k_body_disturbed) != 0u;
+    if (moves || disturbed) loads[body] = pack(no_load());
+    pose.flags &= ~k_body_disturbed;
+    if (!moves || (pose.flags & k_body_frozen) != 0u) {
+        if (disturbed) poses[body] = pack(pose);
+        return;
+    }
     BodyPose moved = apply_delta(pose, unpack(deltas[body]));
+    bool may_rest = parameters.rest_steps > 0u && is_movable(unpack(shapes[body]));
+    if (may_rest && !ends_rest(moved, unpack(deltas[body]), unpack(rests[body]), unpack(shapes[body]), parameters)) {
+        moved.flags = count_rest(moved.flags, parameters);
+    } else {
+        moved.flags = wake_flags(moved.flags);
+    }
+    if (may_rest && measures_anew(moved.flags, parameters)) rests[body] = pack(begin_rest(moved));
     if (is_finite_motion(moved, unpack(velocities[body]))) {
         poses[body] = pack(moved);
     } else {

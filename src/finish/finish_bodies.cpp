@@ -9,13 +9,23 @@
 namespace talus::engine {
 
 static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
+    const Parameters& p = state.parameters;
     state.counters[k_counter_old_pair_count] = state.counters[k_counter_pair_count];
-    state.parallel(state.parameters.body_count, [&](uint body) {
-        if (!is_mover(state.shapes[body])) return;
-        state.loads[body] = no_load();
+    state.parallel(p.body_count, [&](uint body) {
         BodyPose& pose = state.poses[body];
-        if ((pose.flags & k_body_frozen) != 0) return;
-        const BodyPose moved = apply_delta(pose, state.deltas[body]);
+        if (is_asleep(pose)) return;
+        const bool moves = is_mover(state.shapes[body]);
+        if (moves || (pose.flags & k_body_disturbed) != 0) state.loads[body] = no_load();
+        pose.flags &= ~k_body_disturbed;
+        if (!moves || (pose.flags & k_body_frozen) != 0) return;
+        BodyPose moved = apply_delta(pose, state.deltas[body]);
+        const bool may_rest = p.rest_steps > 0 && is_movable(state.shapes[body]);
+        if (may_rest && !ends_rest(moved, state.deltas[body], state.rests[body], state.shapes[body], p)) {
+            moved.flags = count_rest(moved.flags, p);
+        } else {
+            moved.flags = wake_flags(moved.flags);
+        }
+        if (may_rest && measures_anew(moved.flags, p)) state.rests[body] = begin_rest(moved);
         if (is_finite_motion(moved, state.velocities[body])) {
             pose = moved;
         } else {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: whether its bodies touch, and a report where that is new. Launched only where contacts are
-// watched. args.x: 1 where contacts that persist are reported too; args.y: reports that leave with the step.
-// Reads: PairTable, OldManifolds, Manifolds, ManifoldPoints, ContactImpulses.
+// watched. What touched as it fell asleep goes on touching, with the impulses of then.
+// args.x: 1 where contacts that persist are reported too; args.y: reports that leave with the step.
+// Reads: PairTable, Poses, OldManifolds, Manifolds, ManifoldPoints, ContactImpulses.
 // Writes: ContactStates; OldContactStates, 0 where the contact goes on; ContactReports, in an order that depends on who
 // comes first; Counters.
 // Needs: barriers after gather_contact_impulses and fill_pair_table.
 // Overflow: none in the buffer, which has room for a report of each pair, old and new. Where more reports are made than
 // leave with the step, k_fit_reports holds back the steps behind it until the host has fetched the rest.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "resolution/sleep.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "finish/contact_report.shared.glsl"
@@ -14,6 +18,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer PairTable { uint pair_table[]; };
+layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer OldManifolds { ManifoldCells old_manifolds[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
@@ -35,13 +40,16 @@ void main()
     uint old_index = find_old_manifold(manifold.body_a, manifold.body_b);
     bool touched = old_index != k_none && old_contact_states[old_index] == k_contact_touches;
 
+    bool asleep = is_active(manifold) &&
+                  (is_asleep(unpack(poses[manifold.body_a])) || is_asleep(unpack(poses[manifold.body_b])));
     vec4 impulse = vec4(0.0);
-    if (is_active(manifold)) impulse = unpack(contact_impulses[pair]).normal_impulse;
+    if (is_active(manifold) && !asleep) impulse = unpack(contact_impulses[pair]).normal_impulse;
     ContactReport report = make_report(manifold, touched ? k_phase_persist : k_phase_begin);
-    bool touches = false;
+    bool touches = asleep && touched;
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
         ManifoldPoint point = unpack(manifold_points[4u * pair + i]);
+        if (asleep) impulse[i] = point.normal_impulse;
         touches = touches || touches_at(point.separation, impulse[i], touched);
         report = add_point(report, int(i), point, impulse[i]);
     }

@@ -15,14 +15,18 @@ static void report_contacts_on_cpu(CpuState& state, const Launch& launch) {
         const uint old_index = find_old_manifold(state, manifold.body_a, manifold.body_b);
         const bool touched = old_index != k_none && state.old_contact_states[old_index] == k_contact_touches;
 
+        const bool asleep =
+            is_active(manifold) && (is_asleep(state.poses[manifold.body_a]) || is_asleep(state.poses[manifold.body_b]));
         vec4 impulse(0.0f);
-        if (is_active(manifold)) impulse = state.contact_impulses[pair].normal_impulse;
+        if (is_active(manifold) && !asleep) impulse = state.contact_impulses[pair].normal_impulse;
         ContactReport report = make_report(manifold, touched ? k_phase_persist : k_phase_begin);
-        bool touches = false;
+        bool touches = asleep && touched;
         for (uint i = 0; i < manifold.point_count; ++i) {
             const ManifoldPoint& point = state.manifold_points[std::size_t{4} * pair + i];
-            touches = touches || touches_at(point.separation, impulse[static_cast<int>(i)], touched);
-            report = add_point(report, static_cast<int>(i), point, impulse[static_cast<int>(i)]);
+            float& along_normal = impulse[static_cast<int>(i)];
+            if (asleep) along_normal = point.normal_impulse;
+            touches = touches || touches_at(point.separation, along_normal, touched);
+            report = add_point(report, static_cast<int>(i), point, along_normal);
         }
         if (!touches) continue;
         state.contact_states[pair] = k_contact_touches;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3).
+// One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3). Of a pair in
+// which a body sleeps and nothing moves it is the last step's.
 // Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds,
 // OldManifoldPoints.
 // Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints.
@@ -7,6 +8,7 @@
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "resolution/sleep.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "narrow_phase/contact_geometry.shared.glsl"
@@ -61,12 +63,38 @@ OldPoints read_old_points(uint old_index)
     return points;
 }
 
+bool sleeps(uint body_a, uint body_b)
+{
+    BodyPose pose_a = unpack(poses[body_a]);
+    BodyPose pose_b = unpack(poses[body_b]);
+    return (is_asleep(pose_a) || is_asleep(pose_b)) &&
+           is_left_alone(pose_a, unpack(velocities[body_a]), unpack(shapes[body_a])) &&
+           is_left_alone(pose_b, unpack(velocities[body_b]), unpack(shapes[body_b]));
+}
+
+void keep_manifold(uint pair_index, Pair pair, uint old_index)
+{
+    if (old_index == k_none) { // they were apart
+        manifolds[pair_index] = pack(no_manifold(pair));
+        return;
+    }
+    manifolds[pair_index] = old_manifolds[old_index];
+    uint count = unpack(old_manifolds[old_index]).point_count;
+    for (uint i = 0u; i < 4u; ++i) {
+        if (i < count) manifold_points[4u * pair_index + i] = old_manifold_points[4u * old_index + i];
+    }
+}
+
 void main()
 {
     uint pair_index = item_index();
     if (pair_index >= counters[k_counter_pair_count]) return;
     Pair pair = pairs[pair_index];
     uint old_index = find_old_manifold(pair.body_a, pair.body_b);
+    if (parameters.rest_steps > 0u && sleeps(pair.body_a, pair.body_b)) {
+        keep_manifold(pair_index, pair, old_index);
+        return;
+    }
     Carriers carriers = no_carriers();
     if (old_index != k_none) carriers = read_carriers(old_index);
 

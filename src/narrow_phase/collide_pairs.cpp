@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of collide_pairs.comp.glsl.
+#include <algorithm>
+
 #include "device/cpu/cpu_state.h"
 #include "narrow_phase/narrow_phase.h"
 #include "narrow_phase/pair_table.h"
@@ -32,9 +34,28 @@ OldPoints read_old_points(const CpuState& state, uint old_index) {
     return old;
 }
 
+bool sleeps(const CpuState& state, const Pair& pair) {
+    const auto is_left_alone = [&](uint body) {
+        return engine::is_left_alone(state.poses[body], state.velocities[body], state.shapes[body]);
+    };
+    return (is_asleep(state.poses[pair.body_a]) || is_asleep(state.poses[pair.body_b])) && is_left_alone(pair.body_a) &&
+           is_left_alone(pair.body_b);
+}
+
+void keep_manifold(CpuState& state, uint pair_index, uint old_index) {
+    if (old_index == k_none) { // they were apart
+        state.manifolds[pair_index] = no_manifold(state.pairs[pair_index]);
+        return;
+    }
+    state.manifolds[pair_index] = state.old_manifolds[old_index];
+    std::copy_n(&state.old_manifold_points[std::size_t{4} * old_index], state.old_manifolds[old_index].point_count,
+                &state.manifold_points[std::size_t{4} * pair_index]);
+}
+
 void collide_pair(CpuState& state, uint pair_index) {
     const Pair pair = state.pairs[pair_index];
     const uint old_index = find_old_manifold(state, pair.body_a, pair.body_b);
+    if (state.parameters.rest_steps > 0 && sleeps(state, pair)) return keep_manifold(state, pair_index, old_index);
     const Carriers carriers = old_index != k_none ? read_carriers(state, old_index) : no_carriers();
 
     const BodyPose& pose_a = state.poses[pair.body_a];

@@ -193,6 +193,27 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, BodyProperties a, Bo
     return manifold;
 }
 
+// Of two bodies that are apart.
+inline Manifold no_manifold(Pair pair)
+{
+    Manifold manifold;
+    manifold.body_a = pair.body_a;
+    manifold.body_b = pair.body_b;
+    manifold.point_count = 0u;
+    manifold.colour = k_no_colour;
+    manifold.normal = vec3(0.0f, 0.0f, 0.0f);
+    manifold.axis = 0u;
+    manifold.friction = 0.0f;
+    manifold.restitution = 0.0f;
+    manifold.tangent_impulse_1 = 0.0f;
+    manifold.tangent_impulse_2 = 0.0f;
+    manifold.twist_impulse = 0.0f;
+    manifold.weights = 0.0f;
+    manifold.substeps = 0u;
+    manifold.idle_steps = 0u;
+    return manifold;
+}
+
 // Gives a new manifold the colour, the friction and the load of the last step's. Friction is carried as a vector: the
 // tangents of two normals that are nearly the same may lie far apart.
 inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)

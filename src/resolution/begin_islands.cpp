@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of begin_islands.comp.glsl.
+#include <atomic>
+
 #include "device/cpu/cpu_state.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
@@ -7,10 +9,16 @@
 namespace talus::engine {
 
 static void begin_islands_on_cpu(CpuState& state, const Launch&) {
-    state.parallel(state.parameters.body_count, [&](uint body) {
-        state.islands[body] = is_movable(state.shapes[body]) ? body : k_none;
-        state.substeps[body] = state.parameters.least_substeps;
-        state.island_sizes[body] = state.island_starts[body] = state.island_fill[body] = 0;
+    const Parameters& p = state.parameters;
+    state.parallel(p.body_count, [&](uint body) {
+        const BodyShape& shape = state.shapes[body];
+        state.islands[body] = is_movable(shape) ? body : k_none;
+        state.substeps[body] = p.least_substeps;
+        state.island_sizes[body] = state.island_starts[body] = 0;
+        const bool restless = is_restless(state.poses[body], state.velocities[body], shape, p);
+        state.island_fill[body] = restless ? k_awake : 0;
+        if (is_mover(shape) && !is_movable(shape)) // all write the same
+            std::atomic_ref(state.counters[k_counter_launched_substeps]).store(p.least_substeps);
     });
 }
 

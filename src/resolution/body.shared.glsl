@@ -25,6 +25,21 @@ inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movab
     return m;
 }
 
+// Of a body that sleeps: it has no sub-steps.
+inline BodyInertia no_inertia()
+{
+    BodyInertia m;
+    m.xx = 0.0f;
+    m.yy = 0.0f;
+    m.zz = 0.0f;
+    m.xy = 0.0f;
+    m.xz = 0.0f;
+    m.yz = 0.0f;
+    m.traits = 0u;
+    m.substeps = 0u;
+    return m;
+}
+
 inline vec3 multiply_inertia(BodyInertia m, vec3 v)
 {
     precise float x = m.xx * v.x + m.xy * v.y + m.xz * v.z;
@@ -166,6 +181,13 @@ inline BodyVelocity frozen_velocity()
     return velocity;
 }
 
+inline BodyVelocity stop(BodyVelocity velocity)
+{
+    velocity.linear = vec3(0.0f, 0.0f, 0.0f);
+    velocity.angular = vec3(0.0f, 0.0f, 0.0f);
+    return velocity;
+}
+
 inline BodyDelta integrate_position(BodyDelta delta, BodyWarmStart warm, BodyVelocity velocity, float h)
 {
     precise vec3 shifted = delta.position + vec3(warm.shift_x, warm.shift_y, warm.shift_z);
@@ -196,7 +218,7 @@ inline BodyLoad no_load()
 {
     BodyLoad load;
     load.force = vec3(0.0f, 0.0f, 0.0f);
-    load.reserved_1 = 0.0f;
+    load.disturbed = 0u;
     load.torque = vec3(0.0f, 0.0f, 0.0f);
     load.reserved_2 = 0.0f;
     return load;

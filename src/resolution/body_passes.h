@@ -10,11 +10,12 @@
 namespace talus::engine {
 
 /// Ends the sub-step before `substep` with its movement, and begins `substep` with its forces: between the two nothing
-/// happens. A body whose sub-steps are all done is left alone.
+/// happens. A body whose sub-steps are all done is left alone, and one that sleeps, as it has none.
 inline void integrate_body(CpuState& state, uint body, uint substep) {
     const BodyInertia& inertia = state.inertias[body];
     BodyPose& pose = state.poses[body];
-    if (substep > inertia.substeps || !is_mover(state.shapes[body]) || (pose.flags & k_body_frozen) != 0) return;
+    if (substep > inertia.substeps || inertia.substeps == 0 || !is_mover(state.shapes[body])) return;
+    if ((pose.flags & k_body_frozen) != 0) return;
     const float h = substep_length(inertia.substeps, state.parameters);
     BodyVelocity velocity = state.velocities[body];
     BodyDelta& delta = state.deltas[body];

@@ -2,34 +2,37 @@
 // One group: islands, the sets of rigid bodies that contacts join, by hooking the larger root to the smaller one and
 // pointer jumping. An island is named by its lowest body slot, whoever comes first. Bodies that touch nothing share an
 // island: they are many, and each has next to nothing to do. An island has as many sub-steps as the manifold of it that
-// asks for most.
+// asks for most; none where all that is part of it rests. What sleeps is part of no island that is solved.
 // args.x: 1 makes one island of all bodies that move. args.y: 1 puts the island into the manifolds' keys.
-// Reads: Counters, Manifolds, Shapes; ManifoldKeys, the colours.
-// Writes: Islands, Substeps; ManifoldKeys, island and colour.
+// Reads: Counters, Shapes, Poses, Velocities; ManifoldKeys, the colours.
+// Writes: Islands, Substeps; ManifoldKeys, island and colour; Counters; Manifolds, the colour of what sleeps.
 // Needs: a barrier after assign_colours. At most k_island_bodies body slots.
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "resolution/sleep.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 1024) in;
 
-layout(std430) readonly buffer Counters { uint counters[]; };
-layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
+layout(std430) buffer Counters { uint counters[]; };
+layout(std430) buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) writeonly buffer Islands { uint islands[]; };
 layout(std430) writeonly buffer Substeps { uint substeps[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 
 shared uint roots[k_island_bodies];
 shared bool touches[k_island_bodies];
+shared bool restless[k_island_bodies]; // of an island: any of it
 shared uint most_substeps[k_island_bodies];
 shared uint first_mover; // of those that touch nothing; of all, if all are one island
 shared bool changed;
 
-// The two bodies that a pair's contact joins; body 0 twice where it joins none. Where islands are told apart nothing is
-// kinematic: what has a root can be pushed.
+// The two bodies that a pair's contact joins; body 0 twice where it joins none. What has a root can be pushed.
 uvec2 joined_by(uint pair)
 {
     uint body_a = manifolds[pair].body_a;
@@ -37,6 +40,8 @@ uvec2 joined_by(uint pair)
     if (!is_active(manifolds[pair])) return uvec2(0u);
     touches[body_a] = true;
     touches[body_b] = true;
+    if (roots[body_a] == k_none && restless[body_a]) restless[body_b] = true;
+    if (roots[body_b] == k_none && restless[body_b]) restless[body_a] = true;
     return roots[body_a] != k_none && roots[body_b] != k_none ? uvec2(body_a, body_b) : uvec2(0u);
 }
 
@@ -64,12 +69,16 @@ void main()
     if (me == 0u) first_mover = k_none;
     barrier();
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
-        roots[body] = is_mover(shapes[body]) ? body : k_none;
+        roots[body] = is_movable(shapes[body]) ? body : k_none;
         touches[body] = false;
+        restless[body] =
+            parameters.rest_steps == 0u ||
+            is_restless(unpack(poses[body]), unpack(velocities[body]), shapes[body], parameters);
         most_substeps[body] = parameters.least_substeps;
     }
     barrier();
-    bool done = args.x == 1u;
+    // One island of all that is awake: which that is the true islands tell, where anything may sleep.
+    bool done = args.x == 1u && parameters.rest_steps == 0u;
     // Each round hooks the same pairs: most worlds have no more than can be kept.
     uvec2 first = uvec2(0u);
     uvec2 second = uvec2(0u);
@@ -91,12 +100,27 @@ void main()
         done = !changed;
     }
     barrier();
+    // What leads an island is restless where any of it is.
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
-        if (roots[body] != k_none && !touches[body]) atomicMin(first_mover, body);
+        if (roots[body] != k_none && restless[body]) restless[roots[body]] = true;
     }
     barrier();
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
-        if (roots[body] != k_none && !touches[body]) roots[body] = first_mover;
+        if (is_movable(shapes[body]) && restless[roots[body]]) restless[body] = true;
+    }
+    barrier();
+    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
+        if (is_movable(shapes[body]) && !restless[body]) {
+            roots[body] = k_none;
+            continue;
+        }
+        bool is_single = args.x == 1u ? is_mover(shapes[body]) : roots[body] != k_none && !touches[body];
+        if (is_single) atomicMin(first_mover, body);
+    }
+    barrier();
+    for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
+        bool is_awake = is_mover(shapes[body]) && (roots[body] != k_none || !is_movable(shapes[body]));
+        if (is_awake && (args.x == 1u || !touches[body])) roots[body] = first_mover;
     }
     barrier();
 
@@ -106,9 +130,16 @@ void main()
         if (colour != k_inactive_colour) {
             uint body_a = manifolds[pair].body_a;
             island = roots[is_movable(shapes[body_a]) ? body_a : manifolds[pair].body_b];
-            atomicMax(most_substeps[island], manifolds[pair].substeps);
+            if (island != k_none) {
+                atomicMax(most_substeps[island], manifolds[pair].substeps);
+            } else { // it sleeps, and wakes with the colour that it has
+                manifolds[pair].colour = colour;
+                atomicAdd(counters[k_counter_sleeping_manifolds], 1u);
+                island = k_island_bodies;
+                colour = k_inactive_colour;
+            }
         }
-        if (args.y == 1u) manifold_keys[pair] = manifold_key(island, colour);
+        manifold_keys[pair] = args.y == 1u ? manifold_key(island, colour) : colour;
     }
     barrier();
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its island's sub-steps and group, and its place among the bodies in the order of islands.
+// An island that sleeps has neither, and no sub-steps.
 // args.x: 1 where work groups solve islands.
 // Reads: Islands, IslandSizes, IslandStarts (scanned).
 // Writes: Substeps, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
@@ -28,8 +29,12 @@ void main()
     island_groups[body] = k_launched;
     island_places[body] = k_none;
     if (island == k_none) return;
+    if ((island_fill[island] & k_awake) == 0u) {
+        substeps[body] = 0u;
+        return;
+    }
     uint group = args.x == 1u ? island_group(island_sizes[island], island_starts[island]) : k_launched;
-    uint place = island_starts[island] + atomicAdd(island_fill[island], 1u);
+    uint place = island_starts[island] + (atomicAdd(island_fill[island], 1u) & ~k_awake);
     island_groups[body] = group;
     island_places[body] = place;
     island_bodies[place] = body;

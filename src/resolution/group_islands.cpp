@@ -13,7 +13,11 @@ static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
         state.island_groups[body] = k_launched;
         state.island_places[body] = k_none;
         if (island == k_none) continue;
-        const uint place = state.island_starts[island] + state.island_fill[island]++;
+        if ((state.island_fill[island] & k_awake) == 0) {
+            state.substeps[body] = 0;
+            continue;
+        }
+        const uint place = state.island_starts[island] + (state.island_fill[island]++ & ~k_awake);
         if (launch.args[0] == 1)
             state.island_groups[body] = island_group(state.island_sizes[island], state.island_starts[island]);
         state.island_places[body] = place;

@@ -30,6 +30,8 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    bool is_grouped = (unpack(inertias[body]).traits & k_trait_grouped) != 0u; // a work group does it
-    if (!is_grouped) integrate_body(body, args.x);
+    BodyInertia inertia = unpack(inertias[body]);
+    bool is_grouped = (inertia.traits & k_trait_grouped) != 0u; // a work group does it
+    bool sleeps = inertia.substeps == 0u;
+    if (!is_grouped && !sleeps) integrate_body(body, args.x);
 }

@@ -10,9 +10,9 @@ static void integrate_bodies_on_cpu(CpuState& state, const Launch& launch) {
         uint wanted[k_most_lanes];
         uint wanted_count = 0;
         for (uint i = 0; i < count; ++i) {
-            const bool is_grouped =
-                (state.inertias[bodies[i]].traits & k_trait_grouped) != 0; // see solve_island_groups
-            if (!is_grouped) wanted[wanted_count++] = bodies[i];
+            const BodyInertia& inertia = state.inertias[bodies[i]];
+            const bool is_grouped = (inertia.traits & k_trait_grouped) != 0; // see solve_island_groups
+            if (!is_grouped && inertia.substeps > 0) wanted[wanted_count++] = bodies[i];
         }
         pass_over_bodies(state, launch.args[0], wanted, wanted_count);
     });

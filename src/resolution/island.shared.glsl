@@ -9,6 +9,8 @@ inline uint manifold_key(uint island, uint colour) { return (island << k_colour_
 
 // ---- large worlds ----
 
+const uint k_awake = 0x80000000u; // in IslandFill, beside a count of bodies
+
 const uint k_launched = 0u; // in place of a group: the island has too many bodies for one
 
 // Groups are counted from 1, so that what is launched comes first.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: joins the islands of two bodies that touch, by hanging the larger root below the smaller one
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
-// sub-steps of the manifold that asks for most.
+// sub-steps of the manifold that asks for most. What contacts cannot push, but is restless, keeps awake what it touches.
 // Reads: Counters, Manifolds.
-// Writes: Islands, Substeps. Which body hangs below which depends on who comes first; the roots do not.
+// Writes: Islands, Substeps, IslandFill. Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_islands.
 // Overflow: none.
 #include "resolution/colouring.shared.glsl"
+#include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -14,6 +15,7 @@ layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) coherent buffer Islands { uint islands[]; };
 layout(std430) buffer Substeps { uint substeps[]; };
+layout(std430) buffer IslandFill { uint island_fill[]; };
 
 // The root of a body's tree. On the way each body is led to its grandparent: an invocation that still sees the parent
 // finds the same root, later.
@@ -55,4 +57,6 @@ void main()
     if (pushes_a) atomicMax(substeps[manifold.body_a], manifold.substeps);
     if (pushes_b) atomicMax(substeps[manifold.body_b], manifold.substeps);
     if (pushes_a && pushes_b) join(manifold.body_a, manifold.body_b);
+    if (!pushes_a && island_fill[manifold.body_a] == k_awake) island_fill[manifold.body_b] = k_awake;
+    if (!pushes_b && island_fill[manifold.body_b] == k_awake) island_fill[manifold.body_a] = k_awake;
 }

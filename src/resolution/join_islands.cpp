@@ -15,8 +15,9 @@ static void join_islands_on_cpu(CpuState& state, const Launch&) {
         if (!is_active(manifold)) continue;
         if (islands[a] != k_none) state.substeps[a] = max(state.substeps[a], manifold.substeps);
         if (islands[b] != k_none) state.substeps[b] = max(state.substeps[b], manifold.substeps);
-        if (islands[a] == k_none || islands[b] == k_none) continue;
-        join_islands_of(islands, a, b);
+        if (islands[a] == k_none && state.island_fill[a] == k_awake) state.island_fill[b] = k_awake;
+        if (islands[b] == k_none && state.island_fill[b] == k_awake) state.island_fill[a] = k_awake;
+        if (islands[a] != k_none && islands[b] != k_none) join_islands_of(islands, a, b);
     }
 }
 

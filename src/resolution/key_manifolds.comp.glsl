@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a pair: its manifold's place in the order of the solve, by group and then by colour.
-// Reads: IslandGroups, Islands, Manifolds.
-// Writes: ManifoldKeys, in which it finds the colour; Counters, what needs launches.
+// One invocation is a pair: its manifold's place in the order of the solve, by group and then by colour. One of an island
+// that sleeps comes last, as those that do not touch.
+// Reads: IslandGroups, Islands, Substeps, Manifolds.
+// Writes: ManifoldKeys, in which it finds the colour; Counters, what needs launches and what sleeps; Manifolds, the colour
+// of what sleeps.
 // Needs: a barrier after group_islands.
 // Overflow: none.
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
+layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
+layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) buffer Counters { uint counters[]; };
@@ -25,6 +28,12 @@ void main()
     }
     Manifold manifold = unpack(manifolds[pair]);
     uint body = islands[manifold.body_a] != k_none ? manifold.body_a : manifold.body_b;
+    if (substeps[body] == 0u) { // it wakes with the colour that it has
+        if (manifold.colour != colour) manifolds[pair].cell_0.w = colour;
+        manifold_keys[pair] = inactive_key(parameters.body_count);
+        atomicAdd(counters[k_counter_sleeping_manifolds], 1u);
+        return;
+    }
     uint group = island_groups[body];
     manifold_keys[pair] = manifold_key(group, colour);
     if (group != k_launched) return;

@@ -14,9 +14,15 @@ static void key_manifolds_on_cpu(CpuState& state, const Launch&) {
             key = inactive_key(state.parameters.body_count);
             continue;
         }
-        const Manifold& manifold = state.manifolds[pair];
-        const bool pushes_a = state.islands[manifold.body_a] != k_none;
-        const uint group = state.island_groups[pushes_a ? manifold.body_a : manifold.body_b];
+        Manifold& manifold = state.manifolds[pair];
+        const uint body = state.islands[manifold.body_a] != k_none ? manifold.body_a : manifold.body_b;
+        if (state.substeps[body] == 0) { // it wakes with the colour that it has
+            manifold.colour = colour;
+            key = inactive_key(state.parameters.body_count);
+            ++state.counters[k_counter_sleeping_manifolds];
+            continue;
+        }
+        const uint group = state.island_groups[body];
         key = manifold_key(group, colour);
         if (group != k_launched) continue;
         uint& colours = state.counters[k_counter_launched_colours];

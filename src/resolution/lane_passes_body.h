@@ -71,7 +71,7 @@ TALUS_LANE BodyProperties properties_at(const CpuState& state, const std::uint32
 
 TALUS_LANE BodyLoad loads_at(const CpuState& state, const std::uint32_t* bodies) {
     const auto force = gather(state.loads.data, bodies, 0), torque = gather(state.loads.data, bodies, 1);
-    return {three_of(force), force.w, three_of(torque), torque.w};
+    return {three_of(force), floatBitsToUint(force.w), three_of(torque), torque.w};
 }
 
 TALUS_LANE BodyDelta deltas_at(const CpuState& state, const std::uint32_t* bodies) {
@@ -182,8 +182,8 @@ inline std::uint32_t integrate_bodies(const CpuState& state, std::uint32_t subst
         const std::uint32_t body = bodies[lane] = indices[lane < count ? lane : 0];
         const std::uint32_t substeps = state.inertias.data[body].substeps, bit = 1u << lane;
         const std::uint32_t kind = state.shapes.data[body].type >> 8 & 255u; // see kind_of
-        if (lane >= count || substep > substeps || (kind != k_kind_rigid && kind != k_kind_kinematic) ||
-            (state.poses.data[body].flags & k_body_frozen) != 0)
+        if (lane >= count || substep > substeps || substeps == 0 ||
+            (kind != k_kind_rigid && kind != k_kind_kinematic) || (state.poses.data[body].flags & k_body_frozen) != 0)
             continue;
         active |= bit;
         if (substep == substeps) ending |= bit;

@@ -2,7 +2,7 @@
 // One invocation is a body slot: names its island, and adds itself to it. A hub counts as more than a group can solve,
 // as it needs launches of its own.
 // Reads: BodyColours.
-// Writes: Islands; of the island IslandSizes, the same into IslandStarts, and Substeps.
+// Writes: Islands; of the island IslandSizes, the same into IslandStarts, and Substeps; in IslandFill, that it is awake.
 // Needs: barriers after join_islands and assign_colours.
 // Overflow: none.
 #include "resolution/colouring.shared.glsl"
@@ -15,6 +15,7 @@ layout(std430) coherent buffer Islands { uint islands[]; };
 layout(std430) buffer Substeps { uint substeps[]; };
 layout(std430) buffer IslandSizes { uint island_sizes[]; };
 layout(std430) buffer IslandStarts { uint island_starts[]; };
+layout(std430) buffer IslandFill { uint island_fill[]; };
 
 // Changes nothing on its way: others may have named the islands of what it passes.
 uint root_of(uint body)
@@ -34,6 +35,7 @@ void main()
     uint island = root_of(body);
     islands[body] = island;
     atomicMax(substeps[island], substeps[body]);
+    if (island_fill[body] == k_awake && island_fill[island] != k_awake) island_fill[island] = k_awake; // others write the same
     bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
     atomicAdd(island_sizes[island], is_hub ? 1u + k_most_grouped : 1u);
     atomicAdd(island_starts[island], 1u);

@@ -37,13 +37,15 @@ void main()
     if (colour != 0u) return;
     uint group_count = launches ? count_groups(parameters.body_count) : parameters.body_count;
     dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);
-    dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
+    uint awake_count = counters[k_counter_manifold_count] - counters[k_counter_sleeping_manifolds];
+    dispatches[k_dispatch_manifolds] = groups_for(on * awake_count, k_group_size);
     dispatches[k_dispatch_islands] = groups_for(on * group_count, 1u);
     dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1u);
     dispatches[k_dispatch_hubs] = groups_for(on * counters[k_counter_hub_count], 1u);
     dispatches[k_dispatch_reports] = groups_for(on * counters[k_counter_pair_count], k_group_size);
     dispatches[k_dispatch_report_ends] = groups_for(on * counters[k_counter_old_pair_count], k_group_size);
     counters[k_counter_did_not_fit] = did_not_fit;
+    counters[k_counter_manifold_count] = awake_count;
     counters[k_counter_launched_colours] = colours;
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
+// Where its island sleeps it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands.
-// Reads: Poses, Velocities, Properties, Shapes, Substeps, IslandGroups, Counters, BodyColours.
-// Writes: Inertias, Deltas, WarmStarts.
+// Reads: Properties, Shapes, Substeps, IslandGroups, BodyColours.
+// Writes: Inertias, Deltas, WarmStarts; Poses (flags), Velocities and Counters where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "resolution/sleep.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
-layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) buffer Poses { BodyPoseCells poses[]; };
+layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
-layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) writeonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) writeonly buffer Deltas { BodyDeltaCells deltas[]; };
@@ -30,8 +32,20 @@ void main()
     uint body = item_index();
     if (body >= parameters.body_count) return;
     BodyPose pose = unpack(poses[body]);
+    bool asleep = parameters.rest_steps > 0u && is_movable(unpack(shapes[body])) && substeps[body] == 0u;
+    uint flags = sleep_flags(pose.flags, asleep);
+    if (flags != pose.flags) {
+        pose.flags = flags;
+        poses[body] = pack(pose);
+        if (asleep) velocities[body] = pack(stop(unpack(velocities[body])));
+    }
+    if (asleep) {
+        inertias[body] = pack(no_inertia());
+        atomicAdd(counters[k_counter_sleeping_bodies], 1u);
+        return;
+    }
     bool movable = is_movable(unpack(shapes[body])) && (pose.flags & k_body_frozen) == 0u;
-    uint its_substeps = args.x == 1u ? substeps[body] : counters[k_counter_substep_demand];
+    uint its_substeps = args.x == 1u ? substeps[body] : counters[k_counter_launched_substeps];
     BodyInertia inertia = world_inertia(pose.rotation, unpack(properties[body]).inverse_inertia, movable,
                                         is_sphere(unpack(shapes[body])), its_substeps);
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);

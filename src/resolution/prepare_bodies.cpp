@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of prepare_bodies.comp.glsl.
+#include <atomic>
+
 #include "device/cpu/cpu_state.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
@@ -8,9 +10,18 @@ namespace talus::engine {
 
 static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(state.parameters.body_count, [&](uint body) {
-        const BodyPose& pose = state.poses[body];
+        BodyPose& pose = state.poses[body];
+        const bool asleep =
+            state.parameters.rest_steps > 0 && is_movable(state.shapes[body]) && state.substeps[body] == 0;
+        if (asleep && !is_asleep(pose)) state.velocities[body] = stop(state.velocities[body]);
+        pose.flags = sleep_flags(pose.flags, asleep);
+        if (asleep) {
+            state.inertias[body] = no_inertia();
+            std::atomic_ref(state.counters[k_counter_sleeping_bodies]).fetch_add(1);
+            return;
+        }
         const bool movable = is_movable(state.shapes[body]) && (pose.flags & k_body_frozen) == 0;
-        const uint substeps = launch.args[0] == 1 ? state.substeps[body] : state.counters[k_counter_substep_demand];
+        const uint substeps = launch.args[0] == 1 ? state.substeps[body] : state.counters[k_counter_launched_substeps];
         state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia, movable,
                                              is_sphere(state.shapes[body]), substeps);
         state.inertias[body].traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);

@@ -13,7 +13,7 @@ namespace talus::engine {
 
 // Islands have the numbers of their body slots, and one more stands for pairs that do not touch.
 static uint manifold_key_bits(const StepPlan& plan) {
-    if (plan.small ? !plan.in_groups : !plan.has_islands()) return k_colour_bits;
+    if (plan.small ? !plan.in_groups : !plan.measures_islands()) return k_colour_bits;
     return k_colour_bits + std::bit_width(plan.small ? k_island_bodies : count_groups(plan.body_count) + 1);
 }
 
@@ -27,12 +27,18 @@ static void find_island_groups(Device& device, const StepPlan& plan) {
     device.run({.kernel = key_manifolds, .slot = k_dispatch_pairs});
 }
 
+void wake(Device& device, const StepPlan& plan) {
+    if (plan.waking == Waking::None) return;
+    device.run({.kernel = wake_bodies, .items = plan.body_count, .args = {plan.waking == Waking::All}});
+    device.run({.kernel = wake_neighbours, .items = plan.pair_capacity});
+}
+
 void constraint_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_colours, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
     device.run({.kernel = assign_colours, .items = 1});
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
-    if (!plan.small && plan.has_islands()) find_island_groups(device, plan);
+    if (plan.measures_islands()) find_island_groups(device, plan);
     sort_by_key(device, {.keys = BufferId::ManifoldKeys,
                          .values = BufferId::ManifoldOrder,
                          .keys_swap = BufferId::SortedManifoldKeys,
@@ -43,8 +49,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                          .slot = k_dispatch_pair_tiles});
     if (plan.needs_launches())
         find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
-    device.run(
-        {.kernel = plan_colours, .items = 1, .args = {!plan.small && plan.has_islands(), plan.needs_launches()}});
+    device.run({.kernel = plan_colours, .items = 1, .args = {plan.measures_islands(), plan.needs_launches()}});
 }
 
 void prepare(Device& device, const StepPlan& plan) {

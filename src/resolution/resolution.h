@@ -9,6 +9,8 @@ namespace talus::engine {
 
 struct StepPlan;
 
+/// Wakes what the caller has changed, and what touched it. Before the broad phase.
+void wake(Device&, const StepPlan&);
 /// Colours every manifold: no two of one colour share a body that contacts can push. Divides the world into islands
 /// besides, as these are independent.
 void constraint_graph(Device&, const StepPlan&);
@@ -40,5 +42,7 @@ extern const Kernel solve_bouncing_islands;
 extern const Kernel solve_island_groups;
 extern const Kernel solve_bouncing_groups;
 extern const Kernel store_contact_impulses;
+extern const Kernel wake_bodies;
+extern const Kernel wake_neighbours;
 
 } // namespace talus::engine

@@ -158,6 +158,10 @@ void solve_group(uint group)
         store_velocity(slot_of(body), unpack(velocities[body]));
         atomicMax(most_substeps, unpack(inertias[body]).substeps);
     }
+    if (parameters.rest_steps > 0u) {
+        barrier();
+        if (most_substeps == 0u) return; // nobody is awake here
+    }
     find_colours(group);
     barrier();
     uint last = most_substeps;

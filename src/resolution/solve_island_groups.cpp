@@ -19,7 +19,7 @@ void solve_island_groups_on_cpu(CpuState& state, const Launch&) {
             const uint first_place = i * k_group_window;
             for (uint place = first_place; place < min(first_place + k_group_room, body_count); ++place) {
                 const uint body = state.island_bodies[place];
-                if (state.island_places[body] == place && state.island_groups[body] == i + 1)
+                if (body < body_count && state.island_places[body] == place && state.island_groups[body] == i + 1)
                     work.bodies.push_back(body);
             }
             if (work.bodies.empty()) return;

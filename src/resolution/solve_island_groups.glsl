@@ -32,7 +32,7 @@ uint own_body(uint i)
     uint place = first_place() + gl_LocalInvocationID.x + i * gl_WorkGroupSize.x;
     if (place >= parameters.body_count) return k_none;
     uint body = island_bodies[place];
-    bool is_here = island_places[body] == place; // beyond the last body there are old ones
+    bool is_here = body < parameters.body_count && island_places[body] == place; // there are old ones between
     return is_here && island_groups[body] == group_index() + 1u ? body : k_none;
 }
 

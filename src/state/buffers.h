@@ -24,7 +24,8 @@ namespace talus::engine {
     X(Velocities, velocities, BodyVelocity, "ffffffff", State)                                                         \
     X(Shapes, shapes, BodyShape, "fffu", State)                                                                        \
     X(Properties, properties, BodyProperties, "fffffffffuuu", State)                                                   \
-    X(Loads, loads, BodyLoad, "ffffffff", State)                                                                       \
+    X(Loads, loads, BodyLoad, "fffuffff", State)                                                                       \
+    X(Rests, rests, BodyRest, "ffffffff", State)                                                                       \
     X(Changes, changes, uint, "u", Scratch)                                                                            \
     /* broad phase */                                                                                                  \
     X(Aabbs, aabbs, Aabb, "fffffffu", Result)                                                                          \

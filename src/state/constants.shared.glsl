@@ -28,6 +28,9 @@ const uint k_phase_end = 2u;
 // BodyPose::flags
 const uint k_body_frozen = 1u; // went non-finite; stays where it was
 const uint k_body_placed = 2u; // the caller put it there since the last step
+const uint k_body_asleep = 4u; // its island sleeps
+const uint k_body_disturbed = 8u; // the caller has changed it since the last step; only while islands may sleep
+const uint k_rest_shift = 8u; // from this bit on: steps in a row in which it has rested
 
 // BodyInertia::traits
 const uint k_trait_movable = 1u; // contacts can push the body
@@ -55,7 +58,7 @@ const uint k_no_colour = 0xffu; // not coloured yet
 const uint k_counter_body_count = 0u;
 const uint k_counter_pair_demand = 1u;
 const uint k_counter_pair_count = 2u;     // 0 in a step that did not fit
-const uint k_counter_manifold_count = 3u; // pairs that touch
+const uint k_counter_manifold_count = 3u; // pairs that touch; once colours are planned, without sleeping ones
 const uint k_counter_contact_count = 4u;  // contact points
 const uint k_counter_colour_demand = 5u;  // colours in use, without the overflow set
 const uint k_counter_overflow_count = 6u; // manifolds in the overflow set
@@ -71,6 +74,8 @@ const uint k_counter_launched_colours = 14u;
 const uint k_counter_launched_substeps = 15u;
 const uint k_counter_launched_overflow = 16u;
 const uint k_counter_report_count = 17u; // contact events
+const uint k_counter_sleeping_bodies = 18u;
+const uint k_counter_sleeping_manifolds = 19u; // of sleeping islands: nobody solves them
 const uint k_counter_words = 20u;
 
 // Bits of k_counter_did_not_fit

@@ -7,7 +7,7 @@
 // 32 bytes. The renderer draws from these.
 struct BodyPose {
     vec3 position; // m, world, centre of mass
-    uint flags;    // k_body_*
+    uint flags;    // k_body_*, and from bit k_rest_shift on the steps that it has rested
     vec4 rotation; // body to world, x y z w
 };
 
@@ -39,12 +39,19 @@ struct BodyProperties {
     uint reserved_2;
 };
 
-// 32 bytes. The caller's force and torque for the next step.
+// 32 bytes. What the caller does to the body in the next step.
 struct BodyLoad {
     vec3 force; // N, world
-    float reserved_1;
+    uint disturbed; // 1 where the caller has changed the body, so that it and what it touches must wake
     vec3 torque; // N m, world
     float reserved_2;
+};
+
+// 32 bytes. Where the body was when its rest began. Kept while islands may sleep.
+struct BodyRest {
+    vec3 position; // m, world
+    float reserved;
+    vec4 rotation;
 };
 
 // 32 bytes
@@ -220,7 +227,7 @@ struct TreeGrid {
     uint reserved_2;
 };
 
-// The step's constants, 112 bytes: a uniform block in GLSL.
+// The step's constants, 128 bytes: a uniform block in GLSL.
 struct Parameters {
     vec3 gravity; // m/s^2
     float inverse_weight; // s/m: 1 / (g dt); makes an impulse over a mass a number of weights
@@ -248,4 +255,8 @@ struct Parameters {
     uint usable_colours; // 0 where manifolds are solved one after the other
     uint hub_contacts;   // a body with more manifolds is a hub
     uint hub_capacity;   // manifolds of hubs that there is room for; 0 where hubs have no launches
+    uint rest_steps;     // after which a body may sleep; 0 where none ever does
+    float rest_distance; // m, from where the rest began; what goes further does not rest
+    float rest_way;      // m, in a step; nor does what moves more
+    uint reserved;
 };

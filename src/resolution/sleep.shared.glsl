@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Sleep: who rests, and what keeps an island awake. docs/solver.md has the rule. Needs broad_phase/aabb.shared.glsl.
+
+inline bool is_asleep(BodyPose pose) { return (pose.flags & k_body_asleep) != 0u; }
+
+inline bool is_still(BodyVelocity velocity)
+{
+    return velocity.linear.x == 0.0f && velocity.linear.y == 0.0f && velocity.linear.z == 0.0f &&
+           velocity.angular.x == 0.0f && velocity.angular.y == 0.0f && velocity.angular.z == 0.0f;
+}
+
+// Whether a body keeps awake the island that it is part of; where contacts cannot push it, those that it touches. What
+// is frozen will not move.
+inline bool is_restless(BodyPose pose, BodyVelocity velocity, BodyShape shape, Parameters p)
+{
+    if (p.rest_steps == 0u || (pose.flags & k_body_disturbed) != 0u) return true;
+    if (!is_movable(shape)) return is_mover(shape) && !is_still(velocity);
+    return (pose.flags & k_body_frozen) == 0u && (pose.flags >> k_rest_shift) < p.rest_steps;
+}
+
+// Whether a body is where it was when the last step looked for contacts: it sleeps, or it stands where it is put.
+inline bool is_left_alone(BodyPose pose, BodyVelocity velocity, BodyShape shape)
+{
+    if (is_movable(shape)) return is_asleep(pose);
+    return (pose.flags & k_body_disturbed) == 0u && (!is_mover(shape) || is_still(velocity));
+}
+
+inline uint sleep_flags(uint flags, bool asleep) { return asleep ? flags | k_body_asleep : flags & ~k_body_asleep; }
+
+// Of a body that has to begin its rest anew.
+inline uint wake_flags(uint flags) { return flags & ((1u << k_rest_shift) - 1u) & ~k_body_asleep; }
+
+// From where a body's way is measured.
+inline BodyRest begin_rest(BodyPose pose)
+{
+    BodyRest rest;
+    rest.position = pose.position;
+    rest.reserved = 0.0f;
+    rest.rotation = pose.rotation;
+    return rest;
+}
+
+// How far a body, or at most a point of it, comes by a movement and a turn, which is small. A sphere's turn changes
+// nothing for others.
+inline float way_of(vec3 movement, vec4 turn, BodyShape shape)
+{
+    float reach = is_sphere(shape) ? 0.0f : length3(shape.half_extents);
+    float half_angle = length3(vec3(turn.x, turn.y, turn.z));
+    precise float way = length3(movement) + 2.0f * half_angle * reach;
+    return way;
+}
+
+// Whether a body has gone too far from where its rest began, or of late, or moved too fast in this step to be said to rest.
+inline bool ends_rest(BodyPose pose, BodyDelta delta, BodyRest rest, BodyShape shape, Parameters p)
+{
+    precise vec3 movement = pose.position - rest.position;
+    vec4 back = vec4(-rest.rotation.x, -rest.rotation.y, -rest.rotation.z, rest.rotation.w);
+    float way = way_of(movement, multiply_quaternions(pose.rotation, back), shape);
+    return !(way <= p.rest_distance && way_of(delta.position, delta.rotation, shape) <= p.rest_way);
+}
+
+// The flags after another step of rest. What has rested for long enough counts on from there, to measure its way anew
+// after as long again.
+inline uint count_rest(uint flags, Parameters p)
+{
+    uint steps = (flags >> k_rest_shift) + 1u;
+    if (steps >= 2u * p.rest_steps) steps = p.rest_steps;
+    return (flags & ((1u << k_rest_shift) - 1u)) | (steps << k_rest_shift);
+}
+
+// Whether a body's way is measured from here on: its rest has ended, or lasted long enough once more.
+inline bool measures_anew(uint flags, Parameters p)
+{
+    uint steps = flags >> k_rest_shift;
+    return steps == 0u || steps == p.rest_steps;
+}

@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: MIT
+// Sleep, on every device: islands at rest stop, stay where they would have stayed, and wake in the step in which
+// something touches or changes them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "parity.h"
+#include "tests/bodies.h"
+#include "tests/devices.h"
+
+namespace talus::tests {
+namespace {
+
+constexpr float k_box_weight = 1000.0f * 9.81f; // N, of a box of 1 m
+
+Settings with_sleeping() {
+    Settings settings;
+    settings.sleeping = true;
+    return settings;
+}
+
+/// Boxes of 1 m on top of each other.
+std::vector<BodyId> add_stack(World& world, float x, int height = 3) {
+    std::vector<BodyId> ids;
+    for (int i = 0; i < height; ++i)
+        ids.push_back(world.add(box_at({x, 0.5f + static_cast<float>(i), 0.0f})));
+    return ids;
+}
+
+bool all_asleep(const World& world, const std::vector<BodyId>& ids) {
+    return std::ranges::all_of(ids, [&](BodyId id) { return world.is_asleep(id); });
+}
+bool none_asleep(const World& world, const std::vector<BodyId>& ids) {
+    return std::ranges::none_of(ids, [&](BodyId id) { return world.is_asleep(id); });
+}
+
+/// Steps until so many bodies sleep; how many steps that took.
+int step_until_asleep(World& world, std::uint32_t count, int most = 240) {
+    for (int i = 1; i <= most; ++i) {
+        world.step();
+        if (world.report().sleeping_bodies == count) return i;
+    }
+    ADD_FAILURE() << "after " << most << " steps " << world.report().sleeping_bodies << " bodies sleep, not " << count;
+    return most;
+}
+
+/// More body slots than a small world has, far from everything: what makes a world large.
+void add_ballast(World& world) {
+    std::vector<BodyDefinition> ballast;
+    for (int i = 0; i < 1030; ++i)
+        ballast.push_back(box_at({3.0f * static_cast<float>(i % 32), -50.0f, 3.0f * static_cast<float>(i / 32)},
+                                 {1.0f, 1.0f, 1.0f}, BodyKind::Static));
+    world.add(ballast);
+}
+
+class Sleep : public OnDevice {
+protected:
+    /// A ground with a stack of three that sleeps.
+    struct Sleepers {
+        World world;
+        BodyId floor = world.add(ground());
+        std::vector<BodyId> stack = add_stack(world, 0.0f);
+    };
+    Sleepers make_sleepers() const {
+        Sleepers made{make_world(with_sleeping())};
+        step_until_asleep(made.world, 3);
+        return made;
+    }
+};
+TALUS_ON_EVERY_DEVICE(Sleep);
+
+TEST_P(Sleep, is_off_unless_asked_for) {
+    World world = make_world();
+    world.add(ground());
+    const std::vector<BodyId> stack = add_stack(world, 0.0f);
+    world.step(90);
+    EXPECT_TRUE(none_asleep(world, stack));
+    EXPECT_EQ(world.report().sleeping_bodies, 0u);
+    world.wake(stack[0]); // no harm
+    world.step();
+}
+
+TEST_P(Sleep, a_stack_falls_asleep_as_a_whole_and_stays_where_it_is) {
+    World world = make_world(with_sleeping()), awake = make_world();
+    std::vector<BodyId> stack;
+    for (World* each : {&world, &awake}) {
+        each->add(ground());
+        stack = add_stack(*each, 0.0f);
+    }
+    int steps = 0;
+    for (; world.report().sleeping_bodies == 0 && steps < 240; ++steps) {
+        world.step();
+        const auto sleeping = std::ranges::count_if(stack, [&](BodyId id) { return world.is_asleep(id); });
+        EXPECT_TRUE(sleeping == 0 || sleeping == 3) << sleeping << " of 3 in step " << steps;
+    }
+    EXPECT_GE(steps, 30) << "half a second of rest";
+    EXPECT_LT(steps, 120);
+    EXPECT_TRUE(all_asleep(world, stack));
+    EXPECT_EQ(world.report().manifolds, 3u);
+    EXPECT_EQ(world.report().contacts, 12u);
+
+    const std::uint64_t hash = world.state_hash();
+    world.step(120);
+    awake.step(static_cast<std::uint32_t>(steps) + 120);
+    EXPECT_EQ(world.state_hash(), hash);
+    for (const BodyId id : stack) {
+        EXPECT_EQ(world.velocity(id), Velocity{});
+        EXPECT_LT(length(world.pose(id).position - awake.pose(id).position), 0.001f);
+    }
+    for (std::size_t i = 0; const Contact& contact : world.contacts()) {
+        float impulse = 0.0f;
+        for (const ContactPoint& point : contact.points)
+            impulse += point.normal_impulse;
+        const float load = static_cast<float>(3 - i) * k_box_weight / 60.0f;
+        EXPECT_NEAR(impulse, load, 0.02f * load) << i;
+        ++i;
+    }
+}
+
+TEST_P(Sleep, a_ball_wakes_the_stack_in_the_step_of_touch_and_no_other) {
+    Sleepers made = make_sleepers();
+    World& world = made.world;
+    const std::vector<BodyId> other = add_stack(world, 10.0f);
+    step_until_asleep(world, 6);
+    BodyDefinition definition = sphere_at({-6.0f, 2.5f, 0.0f}, 0.25f);
+    definition.velocity.linear = {10.0f, 1.0f, 0.0f};
+    definition.mass = 500.0f;
+    const BodyId ball = world.add(definition);
+    bool touched = false;
+    for (int i = 0; i < 60; ++i) {
+        world.step();
+        const std::vector<Contact> contacts = world.contacts();
+        touched = touched || std::ranges::any_of(contacts, [&](const Contact& contact) {
+                      return contact.b == ball && contact.a != made.floor;
+                  });
+        EXPECT_TRUE(touched ? none_asleep(world, made.stack) : all_asleep(world, made.stack)) << "step " << i;
+        EXPECT_TRUE(all_asleep(world, other));
+    }
+    EXPECT_TRUE(touched);
+    EXPECT_GT(world.pose(made.stack[2]).position.x, 0.01f) << "the ball pushes it";
+}
+
+TEST_P(Sleep, whatever_the_caller_does_to_one_body_wakes_its_island) {
+    Sleepers made = make_sleepers();
+    World& world = made.world;
+    const BodyId box = made.stack[1];
+    const std::vector<std::pair<const char*, std::function<void()>>> calls{
+        {"wake", [&] { world.wake(box); }},
+        {"add_force",
+         [&] {
+             world.add_force(box, {1.0f, 0.0f, 0.0f});
+         }},
+        {"add_torque",
+         [&] {
+             world.add_torque(box, {0.0f, 1.0f, 0.0f});
+         }},
+        {"add_impulse",
+         [&] {
+             world.add_impulse(box, {0.0f, 1.0f, 0.0f});
+         }},
+        {"set_velocity",
+         [&] {
+             world.set_velocity(box, {{0.0f, 0.01f, 0.0f}, {}});
+         }},
+        {"set_pose", [&] { world.set_pose(box, world.pose(box)); }},
+        {"set_material", [&] { world.set_material(box, world.material(box)); }},
+        {"the ground's set_material", [&] { world.set_material(made.floor, world.material(made.floor)); }},
+        {"set_gravity_scale", [&] { world.set_gravity_scale(box, 1.0f); }},
+        {"set_settings",
+         [&] {
+             Settings settings = world.settings();
+             settings.gravity.y -= 0.01f;
+             world.set_settings(settings);
+         }},
+    };
+    for (const auto& [name, call] : calls) {
+        SCOPED_TRACE(name);
+        EXPECT_TRUE(all_asleep(world, made.stack));
+        call();
+        world.step();
+        EXPECT_TRUE(none_asleep(world, made.stack));
+        EXPECT_GE(step_until_asleep(world, 3), 29) << "the rest begins anew";
+    }
+    world.set_settings(world.settings());
+    world.step();
+    EXPECT_TRUE(all_asleep(world, made.stack)) << "nothing has changed";
+}
+
+TEST_P(Sleep, a_strong_push_moves_what_slept) {
+    Sleepers made = make_sleepers();
+    made.world.add_impulse(made.stack[2], {3000.0f, 0.0f, 0.0f});
+    made.world.step(10);
+    EXPECT_GT(made.world.pose(made.stack[2]).position.x, 0.2f);
+}
+
+TEST_P(Sleep, what_loses_its_support_falls) {
+    const std::vector<std::pair<const char*, void (*)(Sleepers&)>> ways{
+        {"the ground is removed", [](Sleepers& made) { made.world.remove(made.floor); }},
+        {"the ground is moved away",
+         [](Sleepers& made) {
+             made.world.set_pose(made.floor, {{0.0f, -60.0f, 0.0f}, {}});
+         }},
+        {"the lowest box is removed", [](Sleepers& made) { made.world.remove(made.stack[0]); }},
+        {"the lowest box is moved away",
+         [](Sleepers& made) {
+             made.world.set_pose(made.stack[0], {{0.0f, 30.0f, 0.0f}, {}});
+         }},
+    };
+    for (const auto& [name, remove_support] : ways) {
+        SCOPED_TRACE(name);
+        Sleepers made = make_sleepers();
+        const float before = made.world.pose(made.stack[2]).position.y;
+        remove_support(made);
+        made.world.step(15);
+        EXPECT_NEAR(made.world.pose(made.stack[2]).position.y - before, -0.5f * 9.81f * 0.25f * 0.25f, 0.03f);
+    }
+}
+
+TEST_P(Sleep, what_comes_to_touch_a_sleeper_wakes_it) {
+    Sleepers made = make_sleepers();
+    World& world = made.world;
+    const BodyId top = world.add(box_at({0.0f, 3.5f, 0.0f}));
+    world.step();
+    EXPECT_TRUE(none_asleep(world, made.stack)) << "a box is added on top";
+    step_until_asleep(world, 4);
+    const BodyId block = world.add(box_at({0.99f, 0.5f, 0.0f}, {1.0f, 1.0f, 1.0f}, BodyKind::Static));
+    world.step();
+    EXPECT_TRUE(none_asleep(world, made.stack)) << "a static box is added inside";
+    EXPECT_FALSE(world.is_asleep(top));
+    world.remove(block);
+    world.step();
+    step_until_asleep(world, 4);
+    const BodyId wall = world.add(box_at({5.0f, 0.5f, 0.0f}, {1.0f, 1.0f, 1.0f}, BodyKind::Static));
+    world.step();
+    EXPECT_TRUE(all_asleep(world, made.stack));
+    world.set_pose(wall, {{0.995f + world.pose(made.stack[0]).position.x, 0.5f, 0.0f}, {}});
+    world.step();
+    EXPECT_TRUE(none_asleep(world, made.stack)) << "a static box is moved there";
+}
+
+TEST_P(Sleep, a_platform_wakes_what_stands_on_it_when_it_starts) {
+    for (const bool large : {false, true}) {
+        SCOPED_TRACE(large ? "large world" : "small world");
+        World world = make_world(with_sleeping());
+        if (large) add_ballast(world);
+        world.add(ground());
+        const BodyId platform = world.add(box_at({0.0f, 2.5f, 0.0f}, {4.0f, 1.0f, 4.0f}, BodyKind::Kinematic));
+        std::vector<BodyId> boxes;
+        for (int i = 0; i < 2; ++i)
+            boxes.push_back(world.add(box_at({0.0f, 3.5f + static_cast<float>(i), 0.0f})));
+        const std::vector<BodyId> other = add_stack(world, 20.0f, 2);
+        step_until_asleep(world, 4);
+        EXPECT_FALSE(world.is_asleep(platform));
+        const float before = world.pose(boxes[1]).position.x;
+        world.set_velocity(platform, {{0.5f, 0.0f, 0.0f}, {}});
+        world.step();
+        EXPECT_TRUE(none_asleep(world, boxes));
+        world.step(59);
+        EXPECT_TRUE(none_asleep(world, boxes)) << "as long as it moves";
+        EXPECT_TRUE(all_asleep(world, other));
+        EXPECT_NEAR(world.pose(boxes[1]).position.x - before, 0.5f, 0.05f);
+        world.set_velocity(platform, {});
+        step_until_asleep(world, 4);
+    }
+}
+
+TEST_P(Sleep, a_kinematic_body_that_touches_nobody_moves_on_while_all_sleep) {
+    World world = make_world(with_sleeping());
+    add_ballast(world);
+    world.add(ground());
+    add_stack(world, 0.0f, 2);
+    BodyDefinition mover = box_at({0.0f, 20.0f, 0.0f}, {1.0f, 1.0f, 1.0f}, BodyKind::Kinematic);
+    mover.velocity.linear = {1.0f, 0.0f, 0.0f};
+    const BodyId id = world.add(mover);
+    const auto steps = static_cast<float>(step_until_asleep(world, 2) + 80); // launches that are not needed end
+    world.step(80);
+    EXPECT_NEAR(world.pose(id).position.x, steps / 60.0f, 0.001f);
+}
+
+TEST_P(Sleep, events_of_what_sleeps_go_on) {
+    World world = make_world(with_sleeping());
+    world.add(ground());
+    const std::vector<BodyId> stack = add_stack(world, 0.0f);
+    BodyDefinition definition = box_at({0.0f, 1.5f, 0.0f}, {2.0f, 3.5f, 2.0f}, BodyKind::Static);
+    definition.sensor = true;
+    world.add(definition);
+    world.watch_contacts(ContactWatch::All);
+    step_until_asleep(world, 3);
+    world.take_contact_events();
+    world.step(3);
+    const std::vector<ContactEvent> events = world.take_contact_events();
+    EXPECT_EQ(events.size(), 3u * 6u) << "three contacts and three boxes in the sensor, in each step";
+    float on_the_ground = 0.0f;
+    for (const ContactEvent& event : events) {
+        EXPECT_EQ(event.phase, ContactPhase::Persist);
+        if (event.b == stack[0] && !event.sensor && event.step == world.step_count())
+            for (const ContactPoint& point : event.points)
+                on_the_ground += point.normal_impulse;
+    }
+    const float load = 3.0f * k_box_weight / 60.0f;
+    EXPECT_NEAR(on_the_ground, load, 0.02f * load);
+
+    world.remove(stack[2]);
+    world.step();
+    const auto ends = [](const ContactEvent& event) { return event.phase == ContactPhase::End; };
+    EXPECT_EQ(std::ranges::count_if(world.take_contact_events(), ends), 2) << "with the box below and the sensor";
+}
+
+TEST_P(Sleep, a_snapshot_holds_what_sleeps_and_who_is_about_to) {
+    World world = make_world(with_sleeping());
+    world.add(ground());
+    const std::vector<BodyId> stack = add_stack(world, 0.0f), later = add_stack(world, 5.0f, 2);
+    step_until_asleep(world, 5);
+    world.wake(later[0]);
+    world.step(20);
+    const Snapshot saved = world.snapshot();
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / ("sleep" + name_of(GetParam()));
+    saved.save(path);
+    const int steps = step_until_asleep(world, 5);
+    world.add_impulse(stack[2], {1000.0f, 0.0f, 0.0f});
+    world.step(20);
+
+    World again = make_world();
+    again.restore(Snapshot::load(path));
+    std::filesystem::remove(path);
+    EXPECT_TRUE(all_asleep(again, stack));
+    EXPECT_TRUE(none_asleep(again, later));
+    EXPECT_EQ(again.report().sleeping_bodies, 3u);
+    EXPECT_EQ(again.contacts().size(), 5u);
+    EXPECT_EQ(step_until_asleep(again, 5), steps);
+    again.add_impulse(stack[2], {1000.0f, 0.0f, 0.0f});
+    again.step(20);
+    EXPECT_EQ(again.state_hash(), world.state_hash());
+
+    // What the caller has done since the last step is part of it.
+    world.restore(saved);
+    world.remove(stack[0]);
+    const Snapshot removed = world.snapshot();
+    again.restore(removed);
+    again.step();
+    EXPECT_FALSE(again.is_asleep(stack[1]));
+}
+
+TEST_P(Sleep, a_frozen_body_keeps_nobody_awake) {
+    World world = make_world(with_sleeping());
+    world.add(ground());
+    const std::vector<BodyId> stack = add_stack(world, 0.0f, 2);
+    const BodyId beside = world.add(box_at({1.005f, 0.5f, 0.0f}));
+    BodyDefinition feather = box_at({-1.005f, 0.5f, 0.0f});
+    feather.mass = 1.0e-12f; // 10¹² N on it overflow a float
+    const BodyId wild = world.add(feather);
+    world.step(5);
+    for (int i = 0; i < 3; ++i) {
+        world.add_force(wild, {1.0e12f, 0.0f, 1.0e12f});
+        world.step();
+    }
+    EXPECT_EQ(world.report().frozen_bodies, 1u);
+    step_until_asleep(world, 4);
+    EXPECT_TRUE(all_asleep(world, stack) && world.is_asleep(beside));
+}
+
+TEST_P(Sleep, ends_when_it_is_turned_off) {
+    Sleepers made = make_sleepers();
+    Settings settings = made.world.settings();
+    settings.sleeping = false;
+    made.world.set_settings(settings);
+    made.world.step();
+    EXPECT_TRUE(none_asleep(made.world, made.stack));
+    EXPECT_EQ(made.world.report().sleeping_bodies, 0u);
+}
+
+TEST_P(Sleep, counting_rest_changes_no_bit) {
+    Settings never = with_sleeping();
+    never.sleep_time = 10.0f;
+    World counting = make_world(never), usual = make_world();
+    for (World* world : {&counting, &usual}) {
+        world->add(mixed_bodies());
+        world->step(40);
+    }
+    EXPECT_EQ(counting.state_hash(), usual.state_hash());
+}
+
+TEST_P(Sleep, a_pile_ends_where_it_would_without) {
+    World world = make_world(with_sleeping()), awake = make_world();
+    for (World* each : {&world, &awake}) {
+        each->add(bodies_of("pool:boxes=40"));
+        each->step(360);
+    }
+    EXPECT_EQ(world.report().sleeping_bodies, 40u);
+    const std::vector<Pose> with = world.poses(), without = awake.poses();
+    for (std::size_t i = 0; i < with.size(); ++i)
+        EXPECT_LT(length(with[i].position - without[i].position), 0.001f) << i;
+}
+
+/// The same story in a small and in a large world: sleepers, a ball that wakes one stack, growth on the way.
+std::uint64_t hash_of_story(World& world, bool large, bool kinematic) {
+    if (large) add_ballast(world);
+    world.add(ground());
+    const std::vector<BodyId> stack = add_stack(world, 0.0f);
+    add_stack(world, 8.0f, 2);
+    if (kinematic) world.add(box_at({0.0f, 9.0f, 0.0f}, {1.0f, 1.0f, 1.0f}, BodyKind::Kinematic));
+    step_until_asleep(world, 5);
+    BodyDefinition ball = sphere_at({-3.0f, 2.5f, 0.0f}, 0.3f);
+    ball.velocity.linear = {12.0f, 0.0f, 0.5f};
+    world.add(ball);
+    world.step(40);
+    EXPECT_EQ(world.report().sleeping_bodies, 2u);
+    return world.state_hash();
+}
+
+TEST_P(Sleep, is_the_same_on_every_device) {
+    for (const bool large : {false, true}) {
+        for (const bool kinematic : {false, true}) {
+            SCOPED_TRACE(std::string(large ? "large" : "small") + (kinematic ? ", kinematic" : ""));
+            WorldOptions options = options_on(DeviceKind::Cpu);
+            World reference(with_sleeping(), options), world = make_world(with_sleeping());
+            EXPECT_EQ(hash_of_story(world, large, kinematic), hash_of_story(reference, large, kinematic));
+        }
+    }
+}
+
+TEST(SleepParity, holds_in_a_world_of_which_a_part_sleeps) {
+    TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
+    for (const bool large : {false, true}) {
+        for (const bool kinematic : {false, true}) {
+            SCOPED_TRACE(std::string(large ? "large" : "small") + (kinematic ? ", kinematic" : ""));
+            std::vector<BodyDefinition> bodies{ground()};
+            for (int i = 0; i < 4; ++i)
+                bodies.push_back(box_at({0.0f, 0.5f + static_cast<float>(i), 0.0f}));
+            bodies.push_back(sphere_at({5.0f, 12.0f, 0.0f})); // still bounces about
+            bodies.push_back(box_at({5.0f, 0.5f, 0.0f}));
+            if (kinematic) bodies.push_back(box_at({0.0f, 9.0f, 0.0f}, {1.0f, 1.0f, 1.0f}, BodyKind::Kinematic));
+            for (int i = 0; large && i < 1030; ++i)
+                bodies.push_back(box_at({3.0f * static_cast<float>(i % 32), -50.0f, 3.0f * static_cast<float>(i / 32)},
+                                        {1.0f, 1.0f, 1.0f}, BodyKind::Static));
+            const engine::ParityReport report = engine::compare_devices(bodies, with_sleeping(), 92);
+            EXPECT_TRUE(report.integers_agree());
+            EXPECT_LE(report.largest_error(), engine::k_parity_tolerance);
+        }
+    }
+}
+
+} // namespace
+} // namespace talus::tests
