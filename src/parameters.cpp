@@ -16,7 +16,7 @@ constexpr float k_speculative_distance = 0.02f;
 constexpr float k_baumgarte_slop = 0.005f;
 
 // What stays where it is may be so many times as fast as what goes somewhere, and still be said to rest.
-constexpr float k_jitter = 10.0f;
+constexpr float k_jitter = 5.0f;
 
 // Loads are counted in weights; without gravity, in those of the Earth (m/s²).
 constexpr float k_standard_gravity = 9.81f;

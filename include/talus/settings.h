@@ -64,8 +64,8 @@ struct Settings {
     BroadPhase broad_phase = BroadPhase::Auto;     ///< how pairs are found
     SolveOrder solve_order = SolveOrder::Coloured; ///< in what order contacts are solved
     std::uint32_t hub_contacts = 1000; ///< a body with more is solved by shares: fast, but few may not carry it
-    float sleep_speed = 0.005f; ///< m/s; a body rests where it gets nowhere faster on average, though it may jitter
-    float sleep_time = 0.5f;    ///< s; an island sleeps once all its bodies have rested for so long
+    float sleep_speed = 0.01f; ///< m/s; a body rests where it gets nowhere faster on average, though it may jitter
+    float sleep_time = 0.5f;   ///< s; an island sleeps once all its bodies have rested for so long
     bool sleeping = false; ///< whether islands at rest sleep until something touches them: they cost next to nothing
 
     bool operator==(const Settings&) const = default;
