@@ -222,8 +222,11 @@ void Simulation::change_bodies(const Population& population, const BodyChanges& 
 
 void Simulation::apply_now(const Population& population, const BodyChanges& changes) {
     write_body_count(population.slots);
-    apply_changes(*placement.resolution, changes);
-    if (placement.hybrid()) apply_changes(*placement.detection, changes);
+    for (Device* device : {gpu.get(), cpu.get()}) {
+        if (device == nullptr) continue;
+        apply_changes(*device, changes);
+        device->leave();
+    }
 }
 
 void Simulation::read_state(std::span<const ReadRequest> requests) {

@@ -132,6 +132,13 @@ protected:
             {"set_settings", [this] { world->set_settings(weightless()); }},
             {"memory", [this] { world->memory(); }},
             {"gl_buffers", [this] { world->gl_buffers(); }},
+            {"gl_buffers with a change on its way",
+             [this] {
+                 world->set_pose(box, {{0.0f, 0.5f, 0.2f}, {}});
+                 world->gl_buffers();
+             }},
+            {"snapshot", [this] { world->snapshot(); }},
+            {"restore", [this] { world->restore(world->snapshot()); }},
             {"a call that is refused", [this] { error_of([this] { world->step(), world->pose({}); }); }},
             {"set_sensor", [this] { world->set_sensor(box, true); }},
             {"watch_contacts", [this] { world->watch_contacts(ContactWatch::All); }},

@@ -68,6 +68,7 @@ struct Settings {
     float sleep_time = 0.5f;   ///< s; an island sleeps once all its bodies have rested for so long
     bool sleeping = false; ///< whether islands at rest sleep until something touches them: they cost next to nothing
 
+    /// Whether every setting is the same.
     bool operator==(const Settings&) const = default;
 };
 

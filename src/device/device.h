@@ -123,6 +123,9 @@ public:
     /// Milliseconds of each stage of a finished step; empty where profiling is off.
     virtual std::span<const double> stage_ms(Ticket) const = 0;
 
+    /// Gives the caller's OpenGL context back as it was, after launches that no read and no end of a step follows.
+    virtual void leave() {}
+
     /// A buffer's memory where the host may use it directly; null on a GPU.
     virtual std::byte* host_data(BufferId) { return nullptr; }
     /// For drawing without a copy; 0 on a device without OpenGL.

@@ -34,6 +34,7 @@ public:
     void set_parameters(const Parameters&) override;
     void prepare(std::span<const Kernel* const>) override;
     void run(const Launch&) override;
+    void leave() override;
     void begin_stage(Stage) override;
     Ticket end_step(bool with_poses, uint report_room) override;
     bool finished(Ticket) const override;
@@ -68,8 +69,6 @@ private:
     /// Lets copies see what kernels wrote.
     void order_after_kernels();
     void end_stage();
-    /// Ends the stage, and gives the caller's context back as it was.
-    void leave();
 
     std::unique_ptr<OpenGlContext> context_;
     std::unique_ptr<Objects> objects_;
