@@ -14,6 +14,10 @@ TALUS_LANE vec3 operator*(glm::vec3 a, Lanes b) {
     return {a.x * b, a.y * b, a.z * b};
 }
 
+#pragma GCC diagnostic push
+#if defined(__clang__)
+#pragma GCC diagnostic ignored "-Wkeyword-macro" // what is to be done here
+#endif
 #define choose_active choose
 #define float Lanes
 #define uint ULanes
@@ -45,5 +49,6 @@ inline NormalSweep choose(bool m, const NormalSweep& yes, const NormalSweep& no)
 #undef uint
 #undef bool
 #undef inline
+#pragma GCC diagnostic pop
 
 } // namespace talus::engine::TALUS_LANES_NAME
