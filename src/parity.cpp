@@ -47,7 +47,8 @@ uint word_at(const Bytes& bytes, std::size_t word) {
 
 /// Over what both have room for: a device may have made a buffer larger than the other.
 bool differ(const Bytes& a, const Bytes& b) {
-    return std::memcmp(a.data(), b.data(), std::min(a.size(), b.size())) != 0;
+    const std::size_t bytes = std::min(a.size(), b.size());
+    return bytes > 0 && std::memcmp(a.data(), b.data(), bytes) != 0; // an empty buffer has no address
 }
 
 BufferParity compare(Stage stage, std::size_t buffer, const Bytes& a, const Bytes& b) {
