@@ -8,6 +8,7 @@
 #include "body_table.h"
 #include "checks.h"
 #include "parameters.h"
+#include "resolution/resolution.h"
 #include "simulation.h"
 #include "state/formulas.h"
 
@@ -110,12 +111,13 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     simulation.settle();
     simulation.reserve_pairs(2 * simulation.plan_step(population).pair_capacity); // the next step fits
 
+    const std::unique_ptr<Device> gpu = make_gl_device(GlContext::Own, false);
     StepPlan plan = simulation.plan_step(population);
+    plan.persistent_groups = plan.may_be_persistent() ? gpu->resident_groups(solve_persistent) : 0;
     plan.colour_capacity = k_first_hub_colour;
     plan.overflow = true;
     plan.substep_capacity = plan.most_substeps;
     Device& cpu = simulation.state_device();
-    const std::unique_ptr<Device> gpu = make_gl_device(GlContext::Own, false);
     const Parameters parameters = make_parameters(settings, plan);
     cpu.set_parameters(parameters);
     gpu->set_parameters(parameters);

@@ -13,6 +13,7 @@
 #include "finish/finish.h"
 #include "log.h"
 #include "parameters.h"
+#include "resolution/resolution.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -26,6 +27,8 @@ constexpr uint k_first_reports = 256;
 constexpr std::size_t k_most_pending = k_ring_size - 1;
 // The heaviest load must not cost too much where a sub-step is launches for each colour.
 constexpr uint k_most_substeps_of_large = 32;
+// Manifolds: with more the launches are long enough, and all in one would be too long for a small GPU's watchdog.
+constexpr uint k_most_persistent = 1u << 20;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
@@ -112,6 +115,7 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::SweepAxes, 1);
     grow_everywhere(BufferId::TreeGrids, 1);
     grow_everywhere(BufferId::HubChanges, 1);
+    grow_everywhere(BufferId::Arrivals, 2);
     grow_everywhere(BufferId::Rests, 1);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
@@ -265,6 +269,13 @@ StepPlan Simulation::plan_step(const Population& population) const {
     const bool launches = !(now.has_groups() || (now.sleeping && !now.small)) || plan.substep_capacity > 0;
     now.substep_capacity = launches ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;
     if (!launches) now.colour_capacity = 0;
+    if (launches && now.may_be_persistent() && solved_count <= k_most_persistent) {
+        now.persistent_groups = placement.resolution->resident_groups(solve_persistent);
+        if (now.persistent_groups > 0) { // nothing has to be known beforehand
+            now.colour_capacity = k_first_hub_colour;
+            now.substep_capacity = now.most_substeps;
+        }
+    }
     return now;
 }
 

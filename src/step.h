@@ -21,15 +21,16 @@ struct Population {
 /// What the host knows of a step before it runs: how large launches may be, and which passes there are.
 struct StepPlan {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
-    uint body_count = 0;      ///< body slots in use
-    uint pair_capacity = 0;   ///< room in the buffers that have a record a pair
-    uint table_size = 0;      ///< slots of PairTable
-    uint colour_capacity = 0; ///< colours that get launches
-    bool overflow = false;    ///< the overflow set gets launches
-    uint hub_capacity = 0;    ///< manifolds of hubs that there is room for; 0: hubs get no launches
-    bool small = false;       ///< up to k_island_bodies body slots
-    bool one_island = false;  ///< islands are not told apart: a kinematic body may be part of several
-    bool in_groups = false;   ///< work groups solve islands: each of a small world, the little ones of a large world
+    uint body_count = 0;        ///< body slots in use
+    uint pair_capacity = 0;     ///< room in the buffers that have a record a pair
+    uint table_size = 0;        ///< slots of PairTable
+    uint colour_capacity = 0;   ///< colours that get launches
+    bool overflow = false;      ///< the overflow set gets launches
+    uint hub_capacity = 0;      ///< manifolds of hubs that there is room for; 0: hubs get no launches
+    bool small = false;         ///< up to k_island_bodies body slots
+    bool one_island = false;    ///< islands are not told apart: a kinematic body may be part of several
+    bool in_groups = false;     ///< work groups solve islands: each of a small world, the little ones of a large world
+    uint persistent_groups = 0; ///< that solve all else in one launch; 0: a launch for each colour and pass
     uint least_substeps = 0;
     uint most_substeps = 0;
     uint substep_capacity = 1; ///< sub-steps that get launches: some, until it is known that none are needed
@@ -47,6 +48,8 @@ struct StepPlan {
     bool measures_islands() const { return !small && (!one_island || sleeping); }
     bool has_groups() const { return in_groups && !small; }
     bool needs_launches() const { return !(in_groups && small); }
+    /// One persistent launch may make all passes, if the device has groups for it.
+    bool may_be_persistent() const { return !small && !bounces && !overflow && hub_capacity == 0; }
 };
 
 /// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.

@@ -189,6 +189,25 @@ TEST_P(Paths, groups_of_islands_give_the_bits_of_many_launches) {
     }
 }
 
+TEST_P(Paths, one_persistent_launch_gives_the_bits_of_many) {
+    Settings settings;
+    settings.substeps = settings.max_substeps = 2;
+    for (const SolveOrder order : {SolveOrder::Coloured, SolveOrder::Sequential}) {
+        SCOPED_TRACE(static_cast<int>(order));
+        settings.solve_order = order;
+        const std::vector<BodyDefinition> bodies = many_islands(0.0f);
+        EngineRun one(options_on(GetParam()), bodies, settings), many(options_on(GetParam()), bodies, settings);
+        one.simulation.reserve_pairs(8192);
+        many.simulation.reserve_pairs(8192);
+        for (int i = 0; i < 4; ++i) {
+            one.step_persistently(i % 2 == 1);
+            many.step_in_many_launches();
+            ASSERT_TRUE(one.motion() == many.motion()) << "step " << i;
+        }
+        EXPECT_GT(one.counter(engine::k_counter_manifold_count), 1000u);
+    }
+}
+
 TEST_P(Paths, islands_of_a_large_world_have_sub_steps_of_their_own) {
     EngineRun run(options_on(GetParam()), many_islands(0.0f));
     run.simulation.reserve_pairs(8192);

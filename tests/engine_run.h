@@ -2,11 +2,13 @@
 // Steps with the inside in sight: a set of bodies on a device, whose buffers a test may read between steps.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "body_table.h"
 #include "parameters.h"
+#include "resolution/resolution.h"
 #include "simulation.h"
 
 namespace talus::tests {
@@ -36,11 +38,19 @@ public:
 
     /// A step as large worlds make it: a launch a colour and pass, where a small world has its solve in one work group.
     void step_in_many_launches() {
-        engine::StepPlan plan = simulation.plan_step(table.population());
+        engine::StepPlan plan = plan_for_any_demand();
         plan.in_groups = false;
-        plan.substep_capacity = plan.most_substeps;
-        plan.colour_capacity = engine::k_first_hub_colour;
-        plan.overflow = true;
+        plan.persistent_groups = 0;
+        step_as(plan);
+    }
+
+    /// A step of a large world whose launches for colours and passes are a single one: of as many groups as run side by
+    /// side, or of one where that is not known. Work groups may take the little islands.
+    void step_persistently(bool in_groups) {
+        engine::StepPlan plan = plan_for_any_demand();
+        plan.in_groups = in_groups;
+        plan.persistent_groups =
+            std::max(simulation.state_device().resident_groups(engine::solve_persistent), engine::uint{1});
         step_as(plan);
     }
 
@@ -48,11 +58,9 @@ public:
     /// and for each group of little ones in a large world. There the driver ends loops after 65,535 rounds, so few
     /// sub-steps and contacts are all that a test may ask for.
     void step_in_groups(bool bounces) {
-        engine::StepPlan plan = simulation.plan_step(table.population());
+        engine::StepPlan plan = plan_for_any_demand();
         plan.in_groups = true;
-        plan.substep_capacity = plan.most_substeps;
-        plan.colour_capacity = engine::k_first_hub_colour;
-        plan.overflow = true;
+        plan.persistent_groups = 0;
         plan.bounces = bounces;
         step_as(plan);
     }
@@ -98,6 +106,14 @@ public:
     engine::Simulation simulation;
 
 private:
+    engine::StepPlan plan_for_any_demand() const {
+        engine::StepPlan plan = simulation.plan_step(table.population());
+        plan.substep_capacity = plan.most_substeps;
+        plan.colour_capacity = engine::k_first_hub_colour;
+        plan.overflow = true;
+        return plan;
+    }
+
     void step_as(const engine::StepPlan& plan) {
         engine::Device& device = simulation.state_device();
         device.set_parameters(engine::make_parameters(settings, plan));

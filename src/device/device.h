@@ -92,6 +92,10 @@ public:
     /// in all, without a word.
     virtual bool loops_freely() const { return true; }
 
+    /// How many groups of a kernel run side by side, so that they may wait for each other; 0 where that is not known.
+    /// The kernel counts them itself if it includes primitives/grid_barrier.glsl and its args.x is 1.
+    virtual uint resident_groups(const Kernel&) { return 0; }
+
     /// Gives a buffer room for at least `bytes`; the old content stays at its start, the rest is zero.
     virtual void grow(BufferId, std::size_t bytes) = 0;
     virtual std::size_t size(BufferId) const = 0;

@@ -144,20 +144,17 @@ void put_velocities(uint index, VelocityPair before, VelocityPair after)
 void pass_over_constraint(uint pass, uint index, PassTarget target)
 {
     ManifoldState before = begin_pass();
+    ManifoldState solved = before;
     if (pass == k_warm_start) {
-        put_velocities(index, before.velocities, warm_start_manifold(before.velocities, rows, impulses));
-        return;
-    }
-    ManifoldState solved = solve_manifold(before, rows, target);
-    if (k_bounces && solved.is_hit) {
-        if (pass == k_relax) return; // the next step's
-        ManifoldState hit = pass_over_hit(index, target.old_share);
-        impulses = hit.impulses;
-        put_velocities(index, before.velocities, hit.velocities);
-    } else if (is_finite_pair(solved.velocities)) {
+        solved.velocities = warm_start_manifold(before.velocities, rows, impulses);
+    } else {
+        solved = solve_manifold(before, rows, target);
+        if (k_bounces && solved.is_hit) {
+            if (pass == k_relax) return; // the next step's
+            solved = pass_over_hit(index, target.old_share);
+        }
+        if (!is_finite_pair(solved.velocities)) solved = before; // what has gone wrong here is kept from the bodies
         impulses = solved.impulses;
-        put_velocities(index, before.velocities, solved.velocities);
-    } else { // what has gone wrong here is kept from the bodies
-        put_velocities(index, before.velocities, before.velocities);
     }
+    put_velocities(index, before.velocities, solved.velocities);
 }

@@ -3,7 +3,7 @@
 // resolution. args.x: 1 where what is launched has been counted apart. args.y: 0 where a work group solves each island, so
 // that colours and sub-steps need no launches; hubs cannot be solved there.
 // Reads: ColourOffsets, Counters.
-// Writes: Counters, Dispatches.
+// Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.
 // Overflow: more colours or sub-steps than the host has launches for, and more manifolds of hubs than it has room for,
 // are said in k_counter_did_not_fit. Where that is set, by this step or an earlier one, all launches are empty.
@@ -15,6 +15,7 @@ layout(local_size_x = 64) in; // k_max_colours
 layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
+layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
 
 void main()
 {
@@ -49,4 +50,5 @@ void main()
     counters[k_counter_launched_colours] = colours;
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;
+    arrivals[0] = 0u; // of solve_persistent
 }

@@ -35,6 +35,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_launched_colours] = colours;
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;
+    state.arrivals[0] = 0;
     state.dispatches[k_dispatch_reports] = groups_for(on * counters[k_counter_pair_count], k_group_size);
     state.dispatches[k_dispatch_report_ends] = groups_for(on * counters[k_counter_old_pair_count], k_group_size);
 }

@@ -78,6 +78,10 @@ void solve(Device& device, const StepPlan& plan) {
         device.run({.kernel = plan.small ? of_small : of_large, .slot = k_dispatch_islands});
     }
     if (!plan.needs_launches() || plan.substep_capacity == 0) return;
+    if (plan.persistent_groups > 0) {
+        device.run({.kernel = solve_persistent, .items = plan.persistent_groups * solve_persistent.items_a_group});
+        return;
+    }
     for (uint substep = 0; substep < plan.substep_capacity; ++substep) {
         device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {substep}});
         // Later sub-steps find their warm start body by body (body.shared.glsl).

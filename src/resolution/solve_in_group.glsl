@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a work group does that solves islands: all their sub-steps, with velocities in shared memory. A pass over a colour
-// costs a barrier here and a dispatch otherwise. The passes and their order are those of solve() in resolution.cpp, and so
-// are the bits: islands do not touch each other.
-// An invocation keeps the manifold that it has in hand from pass to pass. Where there are more manifolds than
-// invocations it takes the next one before it waits for the others, so that nobody waits for memory.
+// costs a barrier here and a dispatch otherwise.
 // Before this file the kernel gives its number of invocations, declares Islands, and defines
 //   const bool k_bounces, as for contact_passes.glsl
 //   const uint k_room, the bodies that there is room for
@@ -93,54 +90,25 @@ void find_colours(uint group)
     }
 }
 
-// This invocation's manifolds: every gl_WorkGroupSize.x-th of the group's, without the overflow set.
-uint first_index;
-uint end_index;
-uint in_hand; // k_none: none
+uint own_bodies; // a bit for each
 
-void take(uint index)
+uint worker() { return gl_LocalInvocationID.x; }
+uint worker_count() { return gl_WorkGroupSize.x; }
+
+void wait_for_workers()
 {
-    if (index >= end_index) index = first_index; // round to the first again
-    if (index == in_hand || index >= end_index) return;
-    if (in_hand != k_none) put_back_impulses(in_hand);
-    take_constraint(index);
-    in_hand = index;
-}
-
-void pass_over_contacts(uint pass, uint substep)
-{
-    PassTarget target;
-    if (in_hand != k_none && pass != k_warm_start) target = target_of_pass(pass);
-    uint colour_end = colour_offsets[0];
-    for (uint colour = 0u; colour < k_max_colours && colour_end < colour_offsets[k_overflow_colour]; ++colour) {
-        uint colour_begin = colour_end;
-        colour_end = colour_offsets[colour + 1u];
-        if (colour_begin == colour_end) continue;
-        while (in_hand >= colour_begin && in_hand < colour_end) {
-            uint done = in_hand;
-            if (substep < substeps) pass_over_constraint(pass, in_hand, target);
-            take(in_hand + gl_WorkGroupSize.x);
-            if (in_hand <= done) break; // that was the last one: the next pass begins with the first
-            if (pass != k_warm_start) target = target_of_pass(pass);
-        }
-        barrier();
-    }
-
-    uint overflow_end = colour_offsets[k_overflow_colour + 1u];
-    if (colour_offsets[k_overflow_colour] == overflow_end) return;
-    if (gl_LocalInvocationID.x == 0u) { // one after the other
-        if (in_hand != k_none) put_back_impulses(in_hand);
-        in_hand = k_none;
-        for (uint index = colour_offsets[k_overflow_colour]; index < overflow_end; ++index) {
-            take_constraint(index);
-            if (pass != k_warm_start) target = target_of_pass(pass);
-            if (substep < substeps) pass_over_constraint(pass, index, target);
-            put_back_impulses(index);
-        }
-        take(first_index);
-    }
+    groupMemoryBarrier();
     barrier();
 }
+
+void integrate_own_bodies(uint substep)
+{
+    for (uint i = 0u; own_bodies >> i != 0u; ++i) {
+        if (((own_bodies >> i) & 1u) == 1u) integrate_body(own_body(i), substep);
+    }
+}
+
+#include "resolution/solve_substeps.glsl"
 
 void solve_group(uint group)
 {
@@ -150,7 +118,7 @@ void solve_group(uint group)
         store_velocity(k_room, frozen_velocity());
     }
     barrier();
-    uint own_bodies = 0u; // a bit for each
+    own_bodies = 0u;
     for (uint i = 0u; i < k_own_bodies; ++i) {
         uint body = own_body(i);
         if (body == k_none) continue;
@@ -164,26 +132,7 @@ void solve_group(uint group)
     }
     find_colours(group);
     barrier();
-    uint last = most_substeps;
-    first_index = colour_offsets[0] + me;
-    end_index = colour_offsets[k_overflow_colour];
-    in_hand = k_none;
-    take(first_index);
-
-    for (uint substep = 0u; substep <= last; ++substep) {
-        for (uint i = 0u; own_bodies >> i != 0u; ++i) {
-            if (((own_bodies >> i) & 1u) == 1u) integrate_body(own_body(i), substep);
-        }
-        groupMemoryBarrier();
-        barrier();
-        if (substep == last) break;
-        if (substep == 0u) pass_over_contacts(k_warm_start, 0u);
-        for (uint i = 0u; i < parameters.iterations; ++i)
-            pass_over_contacts(i == 0u ? k_solve : k_solve_again, substep);
-    }
-    if (parameters.relax == 1u) pass_over_contacts(k_relax, 0u);
-
-    if (in_hand != k_none) put_back_impulses(in_hand);
+    solve_substeps(most_substeps);
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
         uint body = own_body(i);
         if (((own_bodies >> i) & 1u) == 1u) velocities[body] = pack(load_velocity(slot_of(body)));

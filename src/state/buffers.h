@@ -72,6 +72,7 @@ namespace talus::engine {
       Result)                                                                                                          \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
     X(HubChanges, hub_changes, HubChange, "fffuffff", Result)                                                          \
+    X(Arrivals, arrivals, uint, "u", Scratch)                                                                          \
     /* finish */                                                                                                       \
     X(ContactImpulses, contact_impulses, ContactImpulse, "ffff", Result)                                               \
     X(ContactStates, contact_states, uint, "u", Result)                                                                \

@@ -4,7 +4,10 @@
 #include "device/gl/gl_device.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,6 +31,22 @@ const BufferInfo& buffer_info(BufferId id) {
 void dispatch_groups(uint groups) {
     const uint rows = (groups + k_max_groups - 1) / k_max_groups;
     glDispatchCompute((groups + rows - 1) / rows, rows, 1);
+}
+
+// More than any GPU runs at a time of a kernel that needs all registers.
+constexpr uint k_trial_groups = 4096;
+
+/// TALUS_RESIDENT_GROUPS=n says how many groups may wait for each other, and 0 that none may.
+std::optional<uint> resident_groups_of_environment() {
+    const char* value = std::getenv("TALUS_RESIDENT_GROUPS");
+    if (value == nullptr) return std::nullopt;
+    uint groups = 0;
+    const char* const end = value + std::strlen(value);
+    const auto [rest, error] = std::from_chars(value, end, groups);
+    if (error != std::errc() || rest != end || groups > k_trial_groups)
+        throw Error("TALUS_RESIDENT_GROUPS is '" + std::string(value) + "'; it has to be a number from 0 to " +
+                    std::to_string(k_trial_groups));
+    return groups;
 }
 
 } // namespace
@@ -63,6 +82,18 @@ GlDevice::~GlDevice() {
         // went with it.
         static_cast<void>(objects_.release());
     }
+}
+
+uint GlDevice::resident_groups(const Kernel& kernel) {
+    const auto [entry, is_new] = resident_groups_.try_emplace(kernel.path, 0);
+    if (!is_new) return entry->second;
+    if (const std::optional<uint> wanted = resident_groups_of_environment()) return entry->second = *wanted;
+    if (!loops_freely()) return 0;
+    std::array<uint, 2> arrivals{};
+    write(BufferId::Arrivals, 0, std::as_bytes(std::span(arrivals)));
+    run({.kernel = kernel, .items = k_trial_groups * kernel.items_a_group, .args = {1}});
+    read(std::array{ReadRequest{BufferId::Arrivals, sizeof arrivals, arrivals.data()}});
+    return entry->second = arrivals[1];
 }
 
 void GlDevice::grow(BufferId id, std::size_t bytes) {

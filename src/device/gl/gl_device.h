@@ -25,6 +25,7 @@ public:
 
     DeviceInfo info() const override { return context_->info(); }
     bool loops_freely() const override { return !context_->is_software(); }
+    uint resident_groups(const Kernel&) override;
     void grow(BufferId, std::size_t bytes) override;
     std::size_t size(BufferId) const override;
     std::uint64_t memory_bytes() const override;
@@ -74,6 +75,7 @@ private:
     std::unique_ptr<Objects> objects_;
     GlBindings bindings_;
     std::optional<Parameters> parameters_;
+    std::unordered_map<std::string, uint> resident_groups_; // a kernel's path, of those that were asked for
     std::size_t max_block_bytes_ = 0;
     bool kernels_pending_ = false; // ran since the last order_after_kernels
     bool in_stage_ = false;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// All sub-steps of what no work group solves alone, in one launch: its groups stay until the end and wait for each other
+// after every colour. That costs less than a launch does, the code is fetched once, and where there are no more manifolds
+// than invocations each is loaded once. For worlds without hubs in which nothing bounces.
+// args.x: 1 to count how many groups can run at a time instead.
+// Reads: ColourOffsets, Inertias, Shapes, Properties, Loads.
+// Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
+// Arrivals.
+// Needs: a barrier after prepare_contacts; no more groups than can run at a time; arrivals[0] is 0.
+// Overflow: none; does nothing after a step that did not fit.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "resolution/body.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
+#include "resolution/softness.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
+#include "resolution/contact.shared.glsl"
+#include "resolution/hub.shared.glsl"
+#include "resolution/hit.shared.glsl"
+
+layout(local_size_x = 256) in; // all that the registers of a multiprocessor are enough for
+
+layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
+layout(std430) buffer Counters { uint counters[]; };
+layout(std430) coherent buffer Velocities { BodyVelocityCells velocities[]; };
+
+uint slot_of(uint body) { return body; }
+void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
+
+// A coherent block's member is no argument: NVIDIA's compiler refuses it.
+BodyVelocity load_velocity(uint body)
+{
+    BodyVelocityCells velocity = velocities[body];
+    return unpack(velocity);
+}
+
+const bool k_bounces = false;
+const bool k_hubs = false;
+void put_change(uint index, HubChange change) {}
+
+#include "resolution/contact_passes.glsl"
+#include "resolution/body_passes.glsl"
+#include "primitives/grid_barrier.glsl"
+
+// Neighbours in the order of manifolds are 32 by 32 in different groups, as there are often fewer of a colour than
+// invocations: all multiprocessors are to have some.
+const uint k_neighbours = 32u;
+
+uint worker()
+{
+    uint me = gl_LocalInvocationID.x;
+    return (me / k_neighbours * gl_NumWorkGroups.x + gl_WorkGroupID.x) * k_neighbours + me % k_neighbours;
+}
+uint worker_count() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x; }
+
+void wait_for_workers() { wait_for_all_groups(); }
+
+void integrate_own_bodies(uint substep)
+{
+    for (uint body = worker(); body < parameters.body_count; body += worker_count()) {
+        BodyInertia inertia = unpack(inertias[body]);
+        bool is_grouped = (inertia.traits & k_trait_grouped) != 0u; // a work group does it
+        bool sleeps = inertia.substeps == 0u;
+        if (!is_grouped && !sleeps) integrate_body(body, substep);
+    }
+}
+
+#include "resolution/solve_substeps.glsl"
+
+void main()
+{
+    if (args.x == 1u)
+        count_resident_groups();
+    else if (counters[k_counter_did_not_fit] == 0u)
+        solve_substeps(max(counters[k_counter_launched_substeps], parameters.least_substeps));
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of solve_persistent.comp.glsl: the launches that it stands for.
+#include "resolution/contact_passes.h"
+#include "resolution/resolution.h"
+#include "resolution/solve_contacts.h"
+
+namespace talus::engine {
+
+static void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
+    const Parameters& p = state.parameters;
+    const auto over_contacts = [&](ContactPass pass, uint substep) {
+        for (uint colour = 0; colour <= k_overflow_colour; ++colour)
+            solve_contacts_on_cpu(state, {.kernel = launch.kernel, .args = {colour, static_cast<uint>(pass), substep}});
+    };
+    const uint last = max(state.counters[k_counter_launched_substeps], p.least_substeps);
+    for (uint substep = 0; substep <= last; ++substep) {
+        integrate_bodies.twin(state, {.kernel = integrate_bodies, .args = {substep}});
+        if (substep == last) break;
+        if (substep == 0) over_contacts(ContactPass::WarmStart, 0);
+        for (uint i = 0; i < p.iterations; ++i)
+            over_contacts(i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
+    }
+    if (p.relax == 1) over_contacts(ContactPass::Relax, 0);
+}
+
+const Kernel solve_persistent{"resolution/solve_persistent", solve_persistent_on_cpu, 256};
+
+} // namespace talus::engine

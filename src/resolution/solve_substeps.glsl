@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// All sub-steps of some bodies and the manifolds between them, in one kernel: its invocations are workers that share both
+// among themselves, and wait for each other after every colour. The passes and their order are those of solve() in
+// resolution.cpp, and so are the bits.
+// A worker keeps the manifold that it has in hand from pass to pass. Where it has several it takes the next one before it
+// waits for the others, so that nobody waits for memory. Each step of the work stands here once, as compilers put the
+// code of a function into every place that calls it.
+// Before this file the kernel includes contact_passes.glsl and body_passes.glsl, has colour_offsets[] as the buffer
+// ColourOffsets does, and defines
+//   uint worker(), uint worker_count(): which of the workers this is, and of how many
+//   void wait_for_workers(): until all are here, and what they have written is seen
+//   void integrate_own_bodies(uint substep): integrate_body for the worker's bodies
+
+uint end_index;    // of the manifolds with a colour; the overflow set follows
+uint own_end;      // of those that the worker may have: the overflow set is the first one's
+uint first_index;  // the worker's first manifold; k_none: it has none
+uint index_in_hand; // k_none: none
+
+uint if_own(uint index) { return index < own_end ? index : k_none; }
+
+// The worker's manifold after this one: every worker_count()-th, and the overflow set one after the other.
+uint next_own(uint index)
+{
+    return if_own(index < end_index ? min(index + worker_count(), end_index) : index + 1u);
+}
+
+void find_own_manifolds()
+{
+    end_index = colour_offsets[k_overflow_colour];
+    own_end = worker() == 0u ? colour_offsets[k_overflow_colour + 1u] : end_index;
+    first_index = if_own(min(colour_offsets[0] + worker(), end_index));
+    index_in_hand = k_none;
+}
+
+void take_in_hand(uint index)
+{
+    if (index == index_in_hand || index == k_none) return;
+    if (index_in_hand != k_none) put_back_impulses(index_in_hand);
+    take_constraint(index);
+    index_in_hand = index;
+}
+
+void pass_over_contacts(uint pass, uint substep)
+{
+    uint index = first_index; // the next manifold to pass over
+    bool is_ready = false;    // it is in hand, and its target is known
+    PassTarget target;
+    uint begin = colour_offsets[0];
+    uint all_end = colour_offsets[k_overflow_colour + 1u];
+    for (uint colour = 0u; begin < all_end; ++colour) {
+        // Before the first colour there are none to pass over: all make ready.
+        uint end = colour == 0u ? begin : colour_offsets[colour];
+        while (!is_ready || index < end) {
+            if (is_ready) {
+                if (substep < substeps) pass_over_constraint(pass, index, target);
+                index = next_own(index);
+            }
+            is_ready = true;
+            take_in_hand(index == k_none ? first_index : index); // the next pass begins with the first
+            if (pass != k_warm_start && index != k_none) target = target_of_pass(pass);
+        }
+        if (begin < end) wait_for_workers();
+        begin = end;
+    }
+}
+
+// `last`: the most sub-steps that a body has.
+void solve_substeps(uint last)
+{
+    find_own_manifolds();
+    for (uint substep = 0u; substep <= last; ++substep) {
+        integrate_own_bodies(substep);
+        wait_for_workers();
+        bool is_end = substep == last;
+        uint pass = is_end ? k_relax : substep == 0u ? k_warm_start : k_solve;
+        uint passes = is_end ? parameters.relax : parameters.iterations + (substep == 0u ? 1u : 0u);
+        for (uint i = 0u; i < passes; ++i) {
+            pass_over_contacts(pass, is_end ? 0u : substep);
+            pass = min(pass + 1u, k_solve_again);
+        }
+    }
+    if (index_in_hand != k_none) put_back_impulses(index_in_hand);
+}
