@@ -3,6 +3,7 @@
 // them, the overlays on top. Boxes are one instanced call, spheres another.
 #include "render/painter.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -39,9 +40,7 @@ void enable(GLenum capability, bool on) {
 
 Painter::Painter() {
     // A software renderer pays for every texel that is filled and looked up.
-    const bool in_software = engine::OpenGlContext::current()->is_software();
-    shadow_size = in_software ? 2048 : 4096;
-    shadow_blur = in_software ? 2.0f : 4.0f;
+    largest_shadow_size = engine::OpenGlContext::current()->is_software() ? 2048 : 4096;
 
     const auto drawn = {static_cast<GLenum>(GL_VERTEX_SHADER), static_cast<GLenum>(GL_FRAGMENT_SHADER)};
     fit = make_program("fit_shadow", {GL_COMPUTE_SHADER});
@@ -71,17 +70,24 @@ Painter::Painter() {
     no_tints = make_buffer();
     glNamedBufferStorage(no_tints, 4, nullptr, 0);
 
+    shadow_target = make_framebuffer();
+    glNamedFramebufferDrawBuffer(shadow_target, GL_NONE);
+}
+
+// About twice as fine as the picture: finer is not seen, and costs as much as the bodies where a picture is small.
+void Painter::size_shadow_map(GLint picture_height) {
+    const GLint size = std::min(picture_height <= 1024 ? 2048 : 4096, largest_shadow_size);
+    if (size == shadow_size) return;
+    shadow_size = size;
     shadow_map = make_texture(GL_TEXTURE_2D);
-    glTextureStorage2D(shadow_map, 1, GL_DEPTH_COMPONENT32F, shadow_size, shadow_size);
+    glTextureStorage2D(shadow_map, 1, GL_DEPTH_COMPONENT32F, size, size);
     glTextureParameteri(shadow_map, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(shadow_map, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(shadow_map, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(shadow_map, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glTextureParameteri(shadow_map, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glTextureParameteri(shadow_map, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    shadow_target = make_framebuffer();
     glNamedFramebufferTexture(shadow_target, GL_DEPTH_ATTACHMENT, shadow_map, 0);
-    glNamedFramebufferDrawBuffer(shadow_target, GL_NONE);
 }
 
 void Painter::paint(const View& camera, const Drawing& drawing) {
@@ -90,9 +96,10 @@ void Painter::paint(const View& camera, const Drawing& drawing) {
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
     glGetIntegerv(GL_VIEWPORT, viewport.data());
 
+    size_shadow_map(viewport[3]);
     View view = camera;
     view.sizes.z = static_cast<float>(shadow_size);
-    view.sizes.w = shadow_blur;
+    view.sizes.w = view.sizes.z / 1024.0f;
     glNamedBufferSubData(view_block, 0, sizeof(View), &view);
     glBindBufferBase(GL_UNIFORM_BUFFER, k_view, view_block);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, k_poses, drawing.poses);

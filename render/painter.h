@@ -30,6 +30,7 @@ public:
     void paint(const View&, const Drawing&);
 
 private:
+    void size_shadow_map(GLint picture_height);
     void fit_shadow(std::uint32_t body_count);
     void paint_shadow(const Drawing&);
     void paint_over(GLuint program, std::uint32_t count);
@@ -37,7 +38,7 @@ private:
     void draw_spheres(GLuint program, const Drawing&);
 
     GLint shadow_size = 0; ///< texels a side
-    float shadow_blur = 0; ///< places a side that a shadow is averaged over
+    GLint largest_shadow_size = 0;
     Program fit, box_shadow, sphere_shadow, box, sphere, background, aabb, contact, line;
     // Every shader makes its vertices from their number; only boxes, which share corners within a face, have indices.
     VertexArray no_vertices;
