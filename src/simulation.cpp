@@ -28,7 +28,7 @@ constexpr std::size_t k_most_pending = k_ring_size - 1;
 // The heaviest load must not cost too much where a sub-step is launches for each colour.
 constexpr uint k_most_substeps_of_large = 32;
 // Manifolds: with more the launches are long enough, and all in one would be too long for a small GPU's watchdog.
-constexpr uint k_most_persistent = 1u << 20;
+constexpr uint k_most_persistent = 1u << 24;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 

@@ -19,6 +19,7 @@
 #include "device/gl/gl_context.h"
 #include "device/gl/gl_program.h"
 #include "device/gl/kernel_source.h"
+#include "device/gl/record_blocks.h"
 #include "tests/devices.h"
 
 namespace talus::engine {
@@ -287,6 +288,27 @@ TEST_P(GlKernels, find_each_member_where_cpp_has_it) {
                       static_cast<GLint>(offset));
         }
         glDeleteProgram(program);
+    }
+}
+
+TEST(Records, in_blocks_lie_cell_by_cell) {
+    constexpr std::size_t k_record_bytes = 48, k_cell = 16;
+    std::vector<std::byte> records(k_record_bytes * 70);
+    for (std::size_t i = 0; i < records.size(); ++i)
+        records[i] = static_cast<std::byte>(i / k_cell % 251);
+    const std::vector<std::byte> blocks = in_blocks(records, k_record_bytes);
+    ASSERT_EQ(blocks.size(), k_record_bytes * 96) << "whole blocks of 32";
+    const auto cell_at = [&](std::size_t block, std::size_t cell, std::size_t record) {
+        return blocks[((block * 3 + cell) * 32 + record) * k_cell];
+    };
+    EXPECT_EQ(cell_at(0, 0, 0), records[0]);
+    EXPECT_EQ(cell_at(0, 2, 31), records[31 * k_record_bytes + 2 * k_cell]);
+    EXPECT_EQ(cell_at(2, 1, 5), records[69 * k_record_bytes + k_cell]);
+    EXPECT_EQ(cell_at(2, 1, 6), std::byte{0}) << "there is no such record";
+    for (const std::size_t bytes : {records.size(), std::size_t{100}, std::size_t{4}}) {
+        std::vector<std::byte> back(bytes);
+        out_of_blocks(blocks, k_record_bytes, back);
+        EXPECT_TRUE(std::equal(back.begin(), back.end(), records.begin())) << bytes << " bytes";
     }
 }
 

@@ -10,14 +10,14 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
-layout(std430) readonly buffer Constraints { ContactConstraintCells constraints[]; };
+layout(std430) readonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) writeonly buffer ContactImpulses { ContactImpulseCells contact_impulses[]; };
 
 void main()
 {
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
-    ContactConstraint c = unpack(constraints[index]);
+    ContactConstraint c = unpack_ContactConstraint(constraints, index);
     ContactImpulse gathered;
     gathered.normal_impulse = impulses_in_step(c);
     contact_impulses[c.manifold] = pack(gathered);

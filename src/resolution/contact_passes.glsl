@@ -9,7 +9,7 @@
 // contact_passes.h.
 // Reads: Inertias, Deltas. Reads and writes: Constraints (their impulses), WarmStarts.
 
-layout(std430) buffer Constraints { ContactConstraintCells constraints[]; };
+layout(std430) buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) coherent buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
@@ -46,7 +46,7 @@ ManifoldImpulses impulses;
 
 void take_constraint(uint index)
 {
-    ContactConstraint c = unpack(constraints[index]);
+    ContactConstraint c = unpack_ContactConstraint(constraints, index);
     BodyInertia inertia_a = unpack(inertias[c.body_a]);
     BodyInertia inertia_b = unpack(inertias[c.body_b]);
     body_a = c.body_a;
@@ -64,10 +64,10 @@ void take_constraint(uint index)
 // In the last cells of the record: see ContactConstraint.
 void put_back_impulses(uint index)
 {
-    constraints[index].cell_11.xyz = floatBitsToUint(impulses.friction);
-    constraints[index].cell_12.xyz = floatBitsToUint(impulses.moment);
-    constraints[index].cell_13 = floatBitsToUint(impulses.normal);
-    constraints[index].cell_14 = floatBitsToUint(impulses.total);
+    cell_in_block(constraints, index, 11u) = uvec4(floatBitsToUint(impulses.friction), 0u);
+    cell_in_block(constraints, index, 12u) = uvec4(floatBitsToUint(impulses.moment), 0u);
+    cell_in_block(constraints, index, 13u) = floatBitsToUint(impulses.normal);
+    cell_in_block(constraints, index, 14u) = floatBitsToUint(impulses.total);
 }
 
 PassTarget target_of_pass(uint pass)
@@ -120,7 +120,8 @@ ManifoldState pass_over_hit(uint index, float old_share)
     if (!is_finite_pair(hit.velocities)) return before;
     put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
-    constraints[index].cell_15 = floatBitsToUint(uintBitsToFloat(constraints[index].cell_15) + hit.impulse);
+    vec4 hits = uintBitsToFloat(cell_in_block(constraints, index, 15u));
+    cell_in_block(constraints, index, 15u) = floatBitsToUint(hits + hit.impulse);
     return end_hit(before, hit, old_share);
 }
 

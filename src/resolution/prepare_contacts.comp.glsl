@@ -22,7 +22,7 @@ layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
-layout(std430) writeonly buffer Constraints { ContactConstraintCells constraints[]; };
+layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 
 void main()
 {
@@ -48,5 +48,5 @@ void main()
         if (i >= manifold.point_count) continue;
         c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), meeting, response);
     }
-    constraints[index] = pack(c);
+    pack_ContactConstraint(constraints, index, c);
 }

@@ -46,7 +46,7 @@ void main()
         end = min(end, index + 1u);
     }
     for (; index < end; ++index) {
-        if (args.z >= constraints[index].cell_5.w) continue; // its substeps
+        if (args.z >= cell_in_block(constraints, index, 5u).w) continue; // its substeps
         take_constraint(index);
         PassTarget target;
         if (args.y != k_warm_start) target = target_of_pass(args.y);

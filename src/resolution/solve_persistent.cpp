@@ -23,6 +23,6 @@ static void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
     if (p.relax == 1) over_contacts(ContactPass::Relax, 0);
 }
 
-const Kernel solve_persistent{"resolution/solve_persistent", solve_persistent_on_cpu, 256};
+const Kernel solve_persistent{"resolution/solve_persistent", solve_persistent_on_cpu, 384};
 
 } // namespace talus::engine

@@ -16,7 +16,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
-layout(std430) readonly buffer Constraints { ContactConstraintCells constraints[]; };
+layout(std430) readonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
@@ -26,7 +26,7 @@ void main()
 {
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
-    ContactConstraint c = unpack(constraints[index]);
+    ContactConstraint c = unpack_ContactConstraint(constraints, index);
     vec4 impulse = vec4(0.0);
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= c.point_count) continue;

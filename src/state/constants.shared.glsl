@@ -101,6 +101,7 @@ const uint k_dispatch_reports = k_dispatch_hubs + 1u; // groups of 64 pairs, for
 const uint k_dispatch_report_ends = k_dispatch_reports + 1u; // groups of 64 pairs of the last step
 const uint k_dispatch_count = k_dispatch_report_ends + 1u;
 
+const uint k_block_records = 32u; // see device/gl/record_blocks.h
 const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each
 const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit

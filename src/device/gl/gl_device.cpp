@@ -13,6 +13,8 @@
 
 #include "device/gl/callers_context.h"
 #include "device/gl/kernel_source.h"
+#include "device/gl/record_blocks.h"
+#include "log.h"
 
 namespace talus::engine {
 namespace {
@@ -20,8 +22,9 @@ namespace {
 constexpr std::size_t k_cell_bytes = 16;
 constexpr uint k_max_groups = 65535; // of one dimension, on every driver
 
-std::size_t whole_cells(std::size_t bytes) {
-    return (bytes + k_cell_bytes - 1) / k_cell_bytes * k_cell_bytes;
+/// `bytes` and what is missing to a whole number of parts.
+std::size_t whole(std::size_t part, std::size_t bytes) {
+    return (bytes + part - 1) / part * part;
 }
 
 const BufferInfo& buffer_info(BufferId id) {
@@ -55,7 +58,7 @@ GlDevice::Objects::Objects(bool profile, bool program_cache)
     : parameters("Parameters", sizeof(Parameters)), cache(program_cache), steps(profile) {
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         // Never empty, so that every buffer can be bound.
-        const std::size_t bytes = whole_cells(k_buffers[i].stride);
+        const std::size_t bytes = whole(k_cell_bytes, element_bytes(static_cast<BufferId>(i)));
         buffers[i] = GlBuffer(k_buffers[i].block, bytes);
         buffers[i].zero(0, bytes);
     }
@@ -99,7 +102,7 @@ uint GlDevice::resident_groups(const Kernel& kernel) {
 void GlDevice::grow(BufferId id, std::size_t bytes) {
     GlBuffer& old = buffer(id);
     if (bytes <= old.size()) return;
-    const std::size_t wanted = whole_cells(bytes);
+    const std::size_t wanted = whole(lies_in_blocks(id) ? element_bytes(id) : k_cell_bytes, bytes);
     if (wanted > max_block_bytes_)
         throw Error(std::string("buffer ") + buffer_info(id).block + ": " + std::to_string(wanted) +
                     " bytes are needed, and " + context_->renderer() + " allows a buffer of " +
@@ -129,20 +132,33 @@ void GlDevice::write(BufferId id, std::size_t offset, std::span<const std::byte>
     check_range(id, offset + bytes.size(), "written");
     make_current();
     order_after_kernels();
-    objects_->uploads.copy(buffer(id).name(), offset, bytes);
+    if (!lies_in_blocks(id)) return objects_->uploads.copy(buffer(id).name(), offset, bytes);
+    TALUS_ASSERT(offset == 0, "records in blocks were to be written from their middle on");
+    objects_->uploads.copy(buffer(id).name(), 0, in_blocks(bytes, buffer_info(id).stride));
 }
 
 void GlDevice::read(std::span<const ReadRequest> requests) {
     std::vector<ReadBack::Request> sources;
     sources.reserve(requests.size());
-    for (const ReadRequest& request : requests) {
+    std::vector<std::vector<std::byte>> blocks(requests.size());
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        const ReadRequest& request = requests[i];
         check_range(request.buffer, request.bytes, "read");
         sources.push_back({buffer(request.buffer).name(), request.bytes, request.destination});
+        if (!lies_in_blocks(request.buffer)) continue;
+        blocks[i].resize(whole(element_bytes(request.buffer), request.bytes));
+        sources.back().bytes = blocks[i].size();
+        sources.back().destination = blocks[i].data();
     }
     make_current();
     leave();
     order_after_kernels();
     objects_->read_back.read(sources);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        if (blocks[i].empty()) continue;
+        const std::span records(static_cast<std::byte*>(requests[i].destination), requests[i].bytes);
+        out_of_blocks(blocks[i], buffer_info(requests[i].buffer).stride, records);
+    }
 }
 
 void GlDevice::swap(BufferId a, BufferId b) {

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "device/gl/record_blocks.h"
+
 namespace talus::engine {
 namespace {
 
@@ -147,13 +149,13 @@ void GlProgram::find_blocks() {
         block.name.resize(static_cast<std::size_t>(written));
         block.buffer = buffer_of_block(block.name);
         block.written = !is_declared_readonly(source_->text, block.name);
-        if (block.buffer) check_stride(index, k_buffers[static_cast<std::size_t>(*block.buffer)]);
+        if (block.buffer) check_stride(index, block.name, element_bytes(*block.buffer));
         glShaderStorageBlockBinding(name_, index, index);
         blocks_.push_back(std::move(block));
     }
 }
 
-void GlProgram::check_stride(GLuint block_index, const BufferInfo& buffer) const {
+void GlProgram::check_stride(GLuint block_index, const std::string& block, std::size_t bytes) const {
     const GLint count = resource(name_, GL_SHADER_STORAGE_BLOCK, block_index, GL_NUM_ACTIVE_VARIABLES);
     std::vector<GLint> variables(static_cast<std::size_t>(count));
     const GLenum property = GL_ACTIVE_VARIABLES;
@@ -163,9 +165,9 @@ void GlProgram::check_stride(GLuint block_index, const BufferInfo& buffer) const
         GLint stride = resource(name_, GL_BUFFER_VARIABLE, index, GL_TOP_LEVEL_ARRAY_STRIDE);
         if (stride == 0) // some drivers have it only for arrays of structs
             stride = resource(name_, GL_BUFFER_VARIABLE, index, GL_ARRAY_STRIDE);
-        if (stride != 0 && static_cast<std::size_t>(stride) != buffer.stride)
-            throw Error("kernel " + path_ + ": an element of the block " + buffer.block + " has " +
-                        std::to_string(stride) + " bytes in GLSL, but " + std::to_string(buffer.stride) + " in C++");
+        if (stride != 0 && static_cast<std::size_t>(stride) != bytes)
+            throw Error("kernel " + path_ + ": an element of the block " + block + " has " + std::to_string(stride) +
+                        " bytes in GLSL, but " + std::to_string(bytes) + " in C++");
     }
 }
 

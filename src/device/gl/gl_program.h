@@ -50,7 +50,7 @@ private:
     void check_compiled() const;
     void find_blocks();
     void find_parameters();
-    void check_stride(GLuint block_index, const BufferInfo&) const;
+    void check_stride(GLuint block_index, const std::string& block, std::size_t bytes) const;
 
     std::string path_;
     std::unique_ptr<KernelSource> source_; // until the program is finished

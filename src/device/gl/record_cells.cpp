@@ -45,6 +45,18 @@ std::string packed(const Member& member) {
     return member.type == "uint" ? "r." + member.name : "floatBitsToUint(r." + member.name + ")";
 }
 
+void add_block(std::string& glsl, const std::string& name, std::size_t cells) {
+    std::string loads, stores;
+    for (std::size_t i = 0; i < cells; ++i) {
+        loads += fmt::format("{}cell_in_block(blocks, index, {}u)", i == 0 ? "" : ", ", i);
+        stores += fmt::format(" cell_in_block(blocks, index, {0}u) = cells.cell_{0};", i);
+    }
+    glsl += fmt::format("struct {0}CellBlock {{ uvec4 cells[{1}u * k_block_records]; }};\n"
+                        "#define unpack_{0}(blocks, index) unpack({0}Cells({2}))\n"
+                        "#define pack_{0}(blocks, index, record) {{ {0}Cells cells = pack(record);{3} }}\n",
+                        name, cells, loads, stores);
+}
+
 void add_record(std::string& glsl, const std::string& name, const std::vector<Member>& members) {
     const std::size_t cells = members.back().place / k_cell_words;
     std::string declared, read;
@@ -61,6 +73,7 @@ void add_record(std::string& glsl, const std::string& name, const std::vector<Me
                         "{0} unpack({0}Cells c) {{ return {0}({2}); }}\n"
                         "{0}Cells pack({0} r) {{ return {0}Cells({3})); }}\n",
                         name, declared, read, fmt::join(written, "), "));
+    add_block(glsl, name, cells);
 }
 
 } // namespace
@@ -68,7 +81,9 @@ void add_record(std::string& glsl, const std::string& name, const std::vector<Me
 std::string record_cells(std::string_view records) {
     static const std::regex record(R"(struct (\w+) \{([^}]*)\};)");
     const std::string text(records);
-    std::string glsl;
+    std::string glsl =
+        "#define cell_in_block(blocks, index, cell) "
+        "blocks[(index) / k_block_records].cells[(cell) * k_block_records + (index) % k_block_records]\n";
     for (std::sregex_iterator at(text.begin(), text.end(), record), end; at != end; ++at) {
         const std::vector<Member> members = members_of((*at)[2]);
         if (members.back().place % k_cell_words == 0) add_record(glsl, (*at)[1], members);
