@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a sub-step does to one body. Before this file the kernel defines slot_of, load_velocity and store_velocity, as for
-// contact_passes.glsl, and declares Inertias, Deltas, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
+// What a sub-step does to one body. Before this file the kernel defines slot_of, load_velocity, store_velocity and
+// load_delta, as for contact_passes.glsl, and void store_delta(uint body, BodyDelta delta); and it declares Inertias,
+// WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
@@ -22,7 +23,7 @@ void integrate_body(uint body, uint substep)
     BodyWarmStart warm = load_warm_start(body);
     if (substep > 0u) {
         delta = integrate_position(delta, warm, velocity, h);
-        deltas[body] = pack(delta);
+        store_delta(body, delta);
     }
     if (substep == inertia.substeps) return;
 

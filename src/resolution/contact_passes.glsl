@@ -3,24 +3,18 @@
 //   uint slot_of(uint body), where a body's velocity is found
 //   BodyVelocity load_velocity(uint slot)
 //   void store_velocity(uint slot, BodyVelocity velocity)
+//   BodyDelta load_delta(uint body)
 //   const bool k_bounces, whether there may be a restitution above 0
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
-// Reads: Inertias, Deltas. Reads and writes: Constraints (their impulses), WarmStarts.
+// Reads: Inertias. Reads and writes: Constraints (their impulses), WarmStarts.
 
 layout(std430) buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
-layout(std430) coherent buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
-BodyDelta load_delta(uint body)
-{
-    BodyDeltaCells delta = deltas[body];
-    return unpack(delta);
-}
-
 BodyWarmStart load_warm_start(uint body)
 {
     BodyWarmStartCells warm = warm_starts[body];

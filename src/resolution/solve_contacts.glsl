@@ -27,6 +27,10 @@ uint slot_of(uint body) { return body; }
 BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 
+#include "resolution/stored_deltas.glsl"
+
+BodyDelta load_delta(uint body) { return load_stored_delta(body); }
+
 const bool k_bounces = !k_hubs;
 
 void put_change(uint index, HubChange change)

@@ -4,6 +4,7 @@
 // Before this file the kernel gives its number of invocations, declares Islands, and defines
 //   const bool k_bounces, as for contact_passes.glsl
 //   const uint k_room, the bodies that there is room for
+//   const bool k_deltas_have_room, whether their movements lie in shared memory, too
 //   uint slot_of(uint body), the body's place there; k_room if it is one that nothing moves
 //   const uint k_own_bodies, the most that an invocation has, and uint own_body(uint i), k_none for no body
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
@@ -36,6 +37,40 @@ void store_velocity(uint slot, BodyVelocity velocity)
     angular[3u * slot] = velocity.angular.x;
     angular[3u * slot + 1u] = velocity.angular.y;
     angular[3u * slot + 2u] = velocity.angular.z;
+}
+
+#include "resolution/stored_deltas.glsl"
+
+const uint k_delta_room = k_deltas_have_room ? k_room + 1u : 1u;
+shared vec4 delta_rotations[k_delta_room];
+shared float delta_positions[3u * k_delta_room];
+
+BodyDelta load_delta(uint body)
+{
+    if (!k_deltas_have_room) return load_stored_delta(body);
+    uint slot = slot_of(body);
+    BodyDelta delta;
+    delta.position =
+        vec3(delta_positions[3u * slot], delta_positions[3u * slot + 1u], delta_positions[3u * slot + 2u]);
+    delta.reserved = 0.0;
+    delta.rotation = delta_rotations[slot];
+    return delta;
+}
+
+void put_delta(uint slot, BodyDelta delta)
+{
+    delta_positions[3u * slot] = delta.position.x;
+    delta_positions[3u * slot + 1u] = delta.position.y;
+    delta_positions[3u * slot + 2u] = delta.position.z;
+    delta_rotations[slot] = delta.rotation;
+}
+
+void store_delta(uint body, BodyDelta delta)
+{
+    if (k_deltas_have_room)
+        put_delta(slot_of(body), delta);
+    else
+        store_stored_delta(body, delta);
 }
 
 const bool k_hubs = false; // their islands are solved with a launch for each colour
@@ -116,6 +151,7 @@ void solve_group(uint group)
     if (me == 0u) {
         most_substeps = 0u;
         store_velocity(k_room, frozen_velocity());
+        if (k_deltas_have_room) put_delta(k_room, no_delta());
     }
     barrier();
     own_bodies = 0u;
@@ -124,6 +160,7 @@ void solve_group(uint group)
         if (body == k_none) continue;
         own_bodies |= 1u << i;
         store_velocity(slot_of(body), unpack(velocities[body]));
+        if (k_deltas_have_room) put_delta(slot_of(body), no_delta());
         atomicMax(most_substeps, unpack(inertias[body]).substeps);
     }
     if (parameters.rest_steps > 0u) {
@@ -134,7 +171,9 @@ void solve_group(uint group)
     barrier();
     solve_substeps(most_substeps);
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
+        if (((own_bodies >> i) & 1u) == 0u) continue;
         uint body = own_body(i);
-        if (((own_bodies >> i) & 1u) == 1u) velocities[body] = pack(load_velocity(slot_of(body)));
+        velocities[body] = pack(load_velocity(slot_of(body)));
+        if (k_deltas_have_room) store_stored_delta(body, load_delta(body));
     }
 }

@@ -20,6 +20,7 @@ layout(local_size_x = 384) in; // most islands have no more manifolds; with more
 layout(std430) readonly buffer Islands { uint islands[]; };
 
 const uint k_room = k_island_bodies;
+const bool k_deltas_have_room = false; // all drivers have 32 KB, and velocities take 28
 uint slot_of(uint body) { return islands[body] == k_none ? k_room : body; }
 
 const uint k_own_bodies = (k_island_bodies + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;

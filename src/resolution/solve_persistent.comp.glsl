@@ -34,6 +34,11 @@ BodyVelocity load_velocity(uint body)
     return unpack(velocity);
 }
 
+#include "resolution/stored_deltas.glsl"
+
+BodyDelta load_delta(uint body) { return load_stored_delta(body); }
+void store_delta(uint body, BodyDelta delta) { store_stored_delta(body, delta); }
+
 const bool k_bounces = false;
 const bool k_hubs = false;
 void put_change(uint index, HubChange change) {}
