@@ -9,6 +9,7 @@
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/hub_load.shared.glsl"
 
 layout(local_size_x = 1024) in;
 
@@ -68,7 +69,7 @@ Edge load_edge(uint pair)
     bool both_movable = movable[0] && movable[1];
     uint usable = is_found_hub(edge.body[0]) && is_found_hub(edge.body[1]) ? 0u : parameters.usable_colours;
     if (edge.hub != k_none) {
-        edge.part = part_of_load(pair, manifold.point_count, edge.hub);
+        edge.part = part_of_load(manifold, pair, edge.hub);
         bool carries = carries_hub(edge.part, body_colours[body_word(edge.hub, k_whole_load)], manifold.colour);
         usable = colours_below_hubs(carries, both_movable, parameters);
     }
@@ -104,7 +105,7 @@ void add_load(uint pair)
 {
     uint hub = hub_of(manifolds[pair]);
     if (hub == k_none) return;
-    atomicAdd(body_colours[body_word(hub, k_whole_load)], part_of_load(pair, manifolds[pair].point_count, hub));
+    atomicAdd(body_colours[body_word(hub, k_whole_load)], part_of_load(manifolds[pair], pair, hub));
 }
 
 void propose(uint entry, uint rank_word)

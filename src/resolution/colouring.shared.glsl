@@ -55,8 +55,8 @@ const uint k_best_rank = 2u; // highest rank of the uncoloured edges; two words 
 const uint k_new_edges = 4u; // edges that had no colour at the start of the step
 const uint k_hub_word = 5u;  // k_is_hub, and the number of edges that have got a colour for hubs
 // Of a hub.
-const uint k_largest_load = 6u; // of its edges (N s), the bits of a float
-const uint k_whole_load = 7u;   // of all its edges together, see part_of_load
+const uint k_largest_load = 6u; // of its edges (N s): the bits of a float
+const uint k_whole_load = 7u;   // of all its edges together, in parts (hub_load.shared.glsl)
 const uint k_shared_load = 8u;  // of those that have got a colour for hubs
 const uint k_body_words = 9u;
 
@@ -70,7 +70,7 @@ inline uint body_word(uint body, uint word) { return k_body_words * body + word;
 //
 // What carries much of a hub is too much for a share. An edge with more than a 16th of the load on all of the hub's is
 // coloured as those of other bodies are, until it has less than a 32nd: so there are never more than 31 of them. The
-// first edges to what cannot be pushed are too, whatever they carry: in the step where they are new nobody knows.
+// first edges to what cannot be pushed are too, whatever they carry.
 //
 // Edges of a hub are coloured anew in each step, as their loads change.
 
@@ -84,16 +84,6 @@ inline bool is_hub(uint used_low, uint used_high, uint new_edges, Parameters p)
     return uint(bitCount(used_low)) + uint(bitCount(used_high)) + new_edges > p.hub_contacts;
 }
 
-// The load on an edge (N s) as a whole number, so that a sum of loads is the same in any order. Those of all edges of a
-// hub together are at most 2^30.
-inline uint part_of_load(float load, uint largest_load, uint edge_count)
-{
-    float largest = uintBitsToFloat(largest_load);
-    if (!(largest > 1e-20f)) return 0u;
-    precise float part = min(load * reciprocal(largest), 1.0f) * 1073741824.0f * reciprocal(float(edge_count));
-    return uint(part);
-}
-
 inline bool carries_hub(uint part, uint whole_load, uint last_colour)
 {
     bool did = last_colour != k_no_colour && (last_colour & k_whole_hub) != 0u;
@@ -105,15 +95,6 @@ inline uint colours_below_hubs(bool carries, bool both_movable, Parameters p)
 {
     if (carries) return p.usable_colours;
     return both_movable ? 0u : min(p.usable_colours, k_colours_for_static);
-}
-
-// Of a hub's mass, for one of `edge_count` edges that share it: half of the mass is shared alike, and half by load.
-inline float share_of_hub(uint part, uint shared_load, uint edge_count)
-{
-    precise float alike = reciprocal(float(edge_count));
-    precise float by_load = float(part) * reciprocal(float(shared_load));
-    precise float share = 0.5f * (alike + by_load);
-    return shared_load > 0u ? share : alike;
 }
 
 inline uint shares_of_hub(uint hub_word) { return hub_word & ~k_is_hub; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The load on a contact of a hub. The CPU's counterpart is hub_load.h.
-// Reads: ManifoldPoints, BodyColours (which the kernel declares).
+// The load on a contact of a hub. The kernel declares BodyColours before this file. The CPU's counterpart is hub_load.h.
+// Reads: ManifoldPoints, BodyColours.
 
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 
@@ -13,8 +13,10 @@ float load_on(uint pair, uint point_count)
     return sum;
 }
 
-uint part_of_load(uint pair, uint point_count, uint hub)
+uint part_of_load(Manifold manifold, uint pair, uint hub)
 {
-    return part_of_load(load_on(pair, point_count), body_colours[body_word(hub, k_largest_load)],
-                        body_colours[body_word(hub, k_new_edges)]);
+    float largest = uintBitsToFloat(body_colours[body_word(hub, k_largest_load)]);
+    uint edge_count = body_colours[body_word(hub, k_new_edges)];
+    if (largest == 0.0) return part_by_gravity(manifold.normal, manifold.body_a == hub, edge_count, parameters);
+    return part_of_load(load_on(pair, manifold.point_count), largest, edge_count);
 }

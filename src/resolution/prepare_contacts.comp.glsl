@@ -7,6 +7,7 @@
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/hub_load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
@@ -32,7 +33,7 @@ float share_of_contact(Manifold manifold, uint pair, uint colour)
     if (!is_hub_colour(colour)) return 1.0;
     bool of_a = (unpack(inertias[manifold.body_a]).traits & k_trait_hub) != 0u;
     uint hub = of_a ? manifold.body_a : manifold.body_b;
-    return share_of_hub(part_of_load(pair, manifold.point_count, hub), body_colours[body_word(hub, k_shared_load)],
+    return share_of_hub(part_of_load(manifold, pair, hub), body_colours[body_word(hub, k_shared_load)],
                         shares_of_hub(body_colours[body_word(hub, k_hub_word)]));
 }
 
