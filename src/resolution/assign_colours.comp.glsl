@@ -3,7 +3,7 @@
 // bodies takes the smallest colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count
 // as bodies here.
 // Reads: Counters, Manifolds, Shapes.
-// Writes: ManifoldKeys (the colour), Counters, Hubs (in any order); BodyColours and Uncoloured as it goes.
+// Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours and Uncoloured as it goes.
 // Needs: a barrier after keep_colours.
 // Overflow: a manifold with no colour left at its bodies joins the overflow set, and so does one of two hubs.
 #include "state/math.shared.glsl"
@@ -16,7 +16,7 @@ layout(local_size_x = 1024) in;
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
-layout(std430) writeonly buffer ManifoldKeys { uint manifold_keys[]; };
+layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) coherent buffer BodyColours { uint body_colours[]; };
 layout(std430) coherent buffer Uncoloured { uint uncoloured[]; };
 layout(std430) writeonly buffer Hubs { uint hubs[]; };
@@ -69,7 +69,7 @@ Edge load_edge(uint pair)
     bool both_movable = movable[0] && movable[1];
     uint usable = is_found_hub(edge.body[0]) && is_found_hub(edge.body[1]) ? 0u : parameters.usable_colours;
     if (edge.hub != k_none) {
-        edge.part = part_of_load(manifold, pair, edge.hub);
+        edge.part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), edge.hub);
         bool carries = carries_hub(edge.part, body_colours[body_word(edge.hub, k_whole_load)], manifold.colour);
         usable = colours_below_hubs(carries, both_movable, parameters);
     }
@@ -97,15 +97,17 @@ void find_largest_load(uint pair)
 {
     uint hub = hub_of(manifolds[pair]);
     if (hub == k_none) return;
-    uint load = floatBitsToUint(load_on(pair, manifolds[pair].point_count)); // not negative: ordered as the floats
-    atomicMax(body_colours[body_word(hub, k_largest_load)], load);
+    // Not negative: ordered as the floats.
+    atomicMax(body_colours[body_word(hub, k_largest_load)], manifold_keys[pair]);
 }
 
 void add_load(uint pair)
 {
-    uint hub = hub_of(manifolds[pair]);
+    Manifold manifold = manifolds[pair];
+    uint hub = hub_of(manifold);
     if (hub == k_none) return;
-    atomicAdd(body_colours[body_word(hub, k_whole_load)], part_of_load(manifolds[pair], pair, hub));
+    uint part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), hub);
+    atomicAdd(body_colours[body_word(hub, k_whole_load)], part);
 }
 
 void propose(uint entry, uint rank_word)

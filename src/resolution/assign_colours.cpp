@@ -46,19 +46,23 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         const Manifold& manifold = state.manifolds[edge.pair];
         if (hub_count_of(manifold) != 1) continue;
         uint& largest = word_of(hub_of(manifold), k_largest_load);
-        largest = max(largest, floatBitsToUint(load_on(state, edge.pair)));
+        largest = max(largest, state.manifold_keys[edge.pair]); // not negative: ordered as the floats
     }
     for (const Edge& edge : edges) {
         const uint hub = hub_of(state.manifolds[edge.pair]);
         if (hub_count_of(state.manifolds[edge.pair]) == 1)
-            word_of(hub, k_whole_load) += part_of_load(state, edge.pair, hub);
+            word_of(hub, k_whole_load) +=
+                part_of_load(state, edge.pair, uintBitsToFloat(state.manifold_keys[edge.pair]), hub);
     }
 
     for (const Edge& edge : edges) {
         const Manifold& manifold = state.manifolds[edge.pair];
         const std::array bodies{manifold.body_a, manifold.body_b};
         const auto hub_count = hub_count_of(manifold);
-        const uint hub = hub_of(manifold), part = hub_count == 1 ? part_of_load(state, edge.pair, hub) : 0;
+        const uint hub = hub_of(manifold),
+                   part = hub_count == 1
+                              ? part_of_load(state, edge.pair, uintBitsToFloat(state.manifold_keys[edge.pair]), hub)
+                              : 0;
         uint usable = hub_count == 0 ? state.parameters.usable_colours : 0;
         if (hub_count == 1)
             usable = colours_below_hubs(carries_hub(part, word_of(hub, k_whole_load), manifold.colour),

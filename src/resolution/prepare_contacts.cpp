@@ -12,7 +12,8 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
     const Manifold& manifold = state.manifolds[pair];
     const bool of_a = (state.inertias[manifold.body_a].traits & k_trait_hub) != 0;
     const uint hub = of_a ? manifold.body_a : manifold.body_b;
-    return share_of_hub(part_of_load(state, pair, hub), state.body_colours[body_word(hub, k_shared_load)],
+    return share_of_hub(part_of_load(state, pair, load_on(state, pair), hub),
+                        state.body_colours[body_word(hub, k_shared_load)],
                         shares_of_hub(state.body_colours[body_word(hub, k_hub_word)]));
 }
 
