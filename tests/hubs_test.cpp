@@ -115,6 +115,25 @@ TEST_P(Hubs, stand) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Hubs, testing::ValuesIn(k_cases),
                          [](const auto& test) { return std::string(test.param.name); });
 
+/// What falls on a hub is new to it, and may be as heavy as the hub.
+TEST(HubsThatAreHit, gain_no_energy) {
+    for (const float mass : {2'000.0f, 8'000.0f, 20'000.0f, 30'000.0f, 40'000.0f}) {
+        SCOPED_TRACE(mass);
+        std::vector<BodyDefinition> bodies = plate_with_a_block();
+        bodies.back().pose.position.y += 2.0f;
+        bodies.back().mass = mass;
+        World world(with_hubs(), options_on(DeviceKind::Cpu));
+        world.add(bodies);
+        const double start = mechanical_energy(world);
+        double most = start;
+        for (int i = 0; i < 240; ++i) {
+            world.step();
+            most = std::max(most, mechanical_energy(world));
+        }
+        EXPECT_LE(most, 1.001 * start) << "gained " << 100.0 * (most / start - 1.0) << " %";
+    }
+}
+
 // ---- who gets what ----
 
 class HubShares : public OnDevice {};

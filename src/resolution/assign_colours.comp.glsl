@@ -71,7 +71,8 @@ Edge load_edge(uint pair)
     if (edge.hub != k_none) {
         edge.part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), edge.hub);
         bool carries = carries_hub(edge.part, body_colours[body_word(edge.hub, k_whole_load)], manifold.colour);
-        usable = colours_below_hubs(carries, both_movable, parameters);
+        usable = colours_below_hubs(carries, both_movable, manifold.colour,
+                                    body_colours[body_word(edge.hub, k_largest_load)], parameters);
     }
     edge.colour = first_free_colour(low, high, usable);
     edge.is_shared = edge.hub != k_none && edge.colour == k_overflow_colour;

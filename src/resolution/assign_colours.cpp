@@ -66,7 +66,8 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         uint usable = hub_count == 0 ? state.parameters.usable_colours : 0;
         if (hub_count == 1)
             usable = colours_below_hubs(carries_hub(part, word_of(hub, k_whole_load), manifold.colour),
-                                        std::ranges::all_of(bodies, movable), state.parameters);
+                                        std::ranges::all_of(bodies, movable), manifold.colour,
+                                        word_of(hub, k_largest_load), state.parameters);
         uint low = 0, high = 0, high_of_other = 0;
         for (const uint body : bodies) {
             if (!movable(body)) continue;

@@ -3,8 +3,8 @@
 // is valid), a new one is listed as uncoloured, and so is a hub's, as it may be one no longer. Also counts manifolds and
 // contact points.
 // Reads: Manifolds, ManifoldPoints, Shapes.
-// Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured, Counters. The order of the list
-// depends on who comes first; nothing that is made from it does.
+// Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
+// Counters. The order of the list depends on who comes first; nothing that is made from it does.
 // Needs: barriers after clear_colours and collide_pairs.
 // Overflow: none; the list has room for every pair.
 #include "state/math.shared.glsl"
