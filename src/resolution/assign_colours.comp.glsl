@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One group: colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its
 // bodies takes the smallest colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count
-// as bodies here.
+// as bodies for most of their manifolds, and the loads on them.
 // Reads: Counters, Manifolds, Shapes.
 // Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours and Uncoloured as it goes.
 // Needs: a barrier after keep_colours.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
-// is valid), a new one is listed as uncoloured, and so is a hub's, as it may be one no longer. Also counts manifolds and
+// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes. Also counts manifolds and
 // contact points.
 // Reads: Manifolds, ManifoldPoints, Shapes.
 // Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
