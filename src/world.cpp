@@ -415,7 +415,7 @@ std::vector<Contact> World::contacts() const {
                         from_glm(manifold.normal),
                         manifold.colour == k_inactive_colour,
                         {},
-                        manifold.colour};
+                        manifold.colour < k_no_colour ? manifold.colour & ~k_whole_hub : manifold.colour};
         for (std::size_t k = 4 * i; k < 4 * i + manifold.point_count; ++k)
             contact.points.push_back(
                 {from_glm(records.points[k].position), records.points[k].separation, records.impulses[k]});

@@ -106,6 +106,24 @@ inline std::vector<BodyDefinition> two_plates(std::uint32_t side) {
     return bodies;
 }
 
+/// A table that lies loose on legs, `legs` × `legs` of them as wide as `leg` (m), with side × side boxes of 0.5 m on
+/// it. Bodies 1 is its top, the legs follow, and then the boxes. The top of side = 8 has 7 t and is a hub with_hubs.
+inline std::vector<BodyDefinition> table_on_legs(std::uint32_t side, std::uint32_t legs, float leg = 0.4f) {
+    constexpr float k_pitch = 0.66f, k_top = 0.25f;
+    const float width = k_pitch * static_cast<float>(side);
+    const auto place = [](std::uint32_t i, std::uint32_t count, float pitch) {
+        return pitch * (static_cast<float>(i) - 0.5f * static_cast<float>(count - 1));
+    };
+    std::vector<BodyDefinition> bodies{ground(), box_at({0.0f, 1.0f + 0.5f * k_top, 0.0f}, {width, k_top, width})};
+    const float apart = (width - leg) / static_cast<float>(legs - 1);
+    for (std::uint32_t i = 0; i < legs * legs; ++i)
+        bodies.push_back(box_at({place(i % legs, legs, apart), 0.5f, place(i / legs, legs, apart)}, {leg, 1.0f, leg}));
+    for (std::uint32_t i = 0; i < side * side; ++i)
+        bodies.push_back(box_at({place(i % side, side, k_pitch), 1.25f + k_top, place(i / side, side, k_pitch)},
+                                {0.5f, 0.5f, 0.5f}));
+    return bodies;
+}
+
 /// Boxes and spheres that spin, bounce, slide and are damped, and a kinematic box that runs into them.
 inline std::vector<BodyDefinition> mixed_bodies() {
     std::vector<BodyDefinition> bodies{with_material(ground(), 0.4f, 0.5f)};

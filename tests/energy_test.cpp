@@ -131,6 +131,7 @@ const Case k_cases[] = {
     {"pyramid_that_falls", true, 300, pyramid_that_falls},
     {"pool", true, 600, [] { return bodies_of("pool:boxes=150"); }},
     {"plates_that_fall", true, 300, plates_that_fall},
+    {"table_on_legs", true, 600, [] { return table_on_legs(8, 2); }},
     {"cards", true, 600, cards},
     {"cards_that_slip", true, 300, cards_that_slip},
     {"thrown_boxes", false, 240, [] { return boxes_thrown_at_each_other(0.0f); }},

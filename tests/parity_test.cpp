@@ -80,6 +80,7 @@ TEST(ParityOfMixedBodies, holds_where_colours_run_out) {
     TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
     expect_parity(engine::compare_devices(plate_of(9), {}, 5));
     expect_parity(engine::compare_devices(plate_of(9), with_hubs(), 5));
+    expect_parity(engine::compare_devices(table_on_legs(8, 2), with_hubs(), 5));
     Settings sequential;
     sequential.solve_order = SolveOrder::Sequential;
     expect_parity(engine::compare_devices(bodies_of("pyramid:base=5"), sequential, 5));

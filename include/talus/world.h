@@ -22,7 +22,7 @@ struct StepReport {
     std::uint32_t colours = 0;            ///< batches of the constraint graph
     std::uint32_t substeps = 0;           ///< most that an island had, or will have when it wakes
     std::uint32_t overflow_manifolds = 0; ///< without a colour, solved one at a time
-    std::uint32_t hubs = 0;            ///< bodies with so many contacts that each is solved with a share of their mass
+    std::uint32_t hubs = 0;            ///< bodies with so many contacts that most are solved with a share of their mass
     std::uint32_t frozen_bodies = 0;   ///< bodies whose velocity became non-finite, in all steps so far
     std::uint32_t sleeping_bodies = 0; ///< see Settings::sleeping
     std::uint32_t growths = 0;         ///< steps done again with larger buffers or more launches, so far

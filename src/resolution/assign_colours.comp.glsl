@@ -1,77 +1,86 @@
 // SPDX-License-Identifier: MIT
 // One group: colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its
 // bodies takes the smallest colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count
-// as bodies here.
+// as bodies for most of their manifolds, and the loads on them.
 // Reads: Counters, Manifolds, Shapes.
-// Writes: ManifoldKeys (the colour), Counters, Hubs (in any order); BodyColours and Uncoloured as it goes.
+// Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours and Uncoloured as it goes.
 // Needs: a barrier after keep_colours.
 // Overflow: a manifold with no colour left at its bodies joins the overflow set, and so does one of two hubs.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/hub_load.shared.glsl"
 
 layout(local_size_x = 1024) in;
 
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
-layout(std430) writeonly buffer ManifoldKeys { uint manifold_keys[]; };
+layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) coherent buffer BodyColours { uint body_colours[]; };
 layout(std430) coherent buffer Uncoloured { uint uncoloured[]; };
 layout(std430) writeonly buffer Hubs { uint hubs[]; };
 
+#include "resolution/hub_load.glsl"
+
 shared uint left_over; // manifolds that wait for a later round
+shared bool has_hubs;
 
 struct Edge {
     uint rank;
     uint body[2];
     bool obstructs[2]; // the body may be in the edge's colour once only
-    uint hub_count;
-    bool is_shared; // it takes one of the colours for hubs
+    bool is_shared;    // it takes one of the colours for hubs
+    uint colour;       // that it would take now
+    uint hub;          // k_none where there is none, or two
+    uint part;         // of the hub's load
 };
 
 bool is_found_hub(uint body) { return body_colours[body_word(body, k_hub_word)] != 0u; }
 
-Edge load_edge(uint pair)
+// The hub that it is an edge of; k_none also where both bodies are hubs.
+uint hub_of(Manifold manifold)
 {
-    Edge edge;
-    edge.body[0] = manifolds[pair].body_a;
-    edge.body[1] = manifolds[pair].body_b;
-    bool movable[2];
-    bool of_hub[2];
-    for (uint end = 0u; end < 2u; ++end) {
-        movable[end] = is_movable(shapes[edge.body[end]]);
-        of_hub[end] = is_found_hub(edge.body[end]);
-    }
-    bool both_movable = movable[0] && movable[1];
-    edge.hub_count = (of_hub[0] ? 1u : 0u) + (of_hub[1] ? 1u : 0u);
-    edge.is_shared = edge.hub_count == 1u;
-    if (edge.is_shared && !both_movable) {
-        uint hub = edge.body[of_hub[0] ? 0u : 1u];
-        uint low = body_colours[body_word(hub, k_used_low)];
-        uint high = body_colours[body_word(hub, k_used_high)];
-        edge.is_shared = colour_below_hub(low, high, parameters) == k_overflow_colour;
-    }
-    for (uint end = 0u; end < 2u; ++end)
-        edge.obstructs[end] = movable[end] && !(of_hub[end] && edge.is_shared);
-    edge.rank = edge_rank(edge.body[0], edge.body[1], both_movable);
-    return edge;
+    bool of_a = is_found_hub(manifold.body_a);
+    if (of_a == is_found_hub(manifold.body_b)) return k_none;
+    return of_a ? manifold.body_a : manifold.body_b;
 }
 
-uint free_colour(Edge edge)
+Edge load_edge(uint pair)
 {
+    Manifold manifold = manifolds[pair];
+    Edge edge;
+    edge.body[0] = manifold.body_a;
+    edge.body[1] = manifold.body_b;
+    edge.hub = hub_of(manifold);
+    edge.part = 0u;
     uint low = 0u;
     uint high = 0u;
+    uint high_of_other = 0u; // than the hub
+    bool movable[2];
     for (uint end = 0u; end < 2u; ++end) {
-        if (edge.obstructs[end]) {
-            low |= body_colours[body_word(edge.body[end], k_used_low)];
-            high |= body_colours[body_word(edge.body[end], k_used_high)];
-        }
+        movable[end] = is_movable(shapes[edge.body[end]]);
+        if (!movable[end]) continue;
+        uint its_high = body_colours[body_word(edge.body[end], k_used_high)];
+        low |= body_colours[body_word(edge.body[end], k_used_low)];
+        high |= its_high;
+        if (edge.body[end] != edge.hub) high_of_other = its_high;
     }
-    if (edge.hub_count == 2u) return k_overflow_colour;
-    if (edge.is_shared) return first_free_hub_colour(high);
-    if (edge.hub_count == 1u) return colour_below_hub(low, high, parameters);
-    return first_free_colour(low, high, parameters.usable_colours);
+    bool both_movable = movable[0] && movable[1];
+    uint usable = is_found_hub(edge.body[0]) && is_found_hub(edge.body[1]) ? 0u : parameters.usable_colours;
+    if (edge.hub != k_none) {
+        edge.part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), edge.hub);
+        bool carries = carries_hub(edge.part, body_colours[body_word(edge.hub, k_whole_load)], manifold.colour);
+        usable = colours_below_hubs(carries, both_movable, manifold.colour,
+                                    body_colours[body_word(edge.hub, k_largest_load)], parameters);
+    }
+    edge.colour = first_free_colour(low, high, usable);
+    edge.is_shared = edge.hub != k_none && edge.colour == k_overflow_colour;
+    if (edge.is_shared) edge.colour = first_free_hub_colour(high_of_other);
+    for (uint end = 0u; end < 2u; ++end)
+        edge.obstructs[end] = movable[end] && !(edge.is_shared && edge.body[end] == edge.hub);
+    edge.rank = edge_rank(edge.body[0], edge.body[1], both_movable);
+    return edge;
 }
 
 void find_hub(uint body)
@@ -80,8 +89,26 @@ void find_hub(uint body)
     uint high = body_colours[body_word(body, k_used_high)];
     uint new_edges = body_colours[body_word(body, k_new_edges)];
     if (!is_hub(low, high, new_edges, parameters)) return;
+    has_hubs = true;
     if (atomicOr(body_colours[body_word(body, k_hub_word)], k_is_hub) == 0u)
         hubs[atomicAdd(counters[k_counter_hub_count], 1u)] = body;
+}
+
+void find_largest_load(uint pair)
+{
+    uint hub = hub_of(manifolds[pair]);
+    if (hub == k_none) return;
+    // Not negative: ordered as the floats.
+    atomicMax(body_colours[body_word(hub, k_largest_load)], manifold_keys[pair]);
+}
+
+void add_load(uint pair)
+{
+    Manifold manifold = manifolds[pair];
+    uint hub = hub_of(manifold);
+    if (hub == k_none) return;
+    uint part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), hub);
+    atomicAdd(body_colours[body_word(hub, k_whole_load)], part);
 }
 
 void propose(uint entry, uint rank_word)
@@ -89,7 +116,7 @@ void propose(uint entry, uint rank_word)
     uint pair = uncoloured[entry];
     if (pair == k_none) return;
     Edge edge = load_edge(pair);
-    if (free_colour(edge) == k_overflow_colour) { // colours are never given back
+    if (edge.colour == k_overflow_colour) { // colours are never given back
         manifold_keys[pair] = k_overflow_colour;
         atomicAdd(counters[k_counter_overflow_count], 1u);
         uncoloured[entry] = k_none;
@@ -116,16 +143,17 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
         atomicAdd(left_over, 1u);
         return;
     }
-    uint colour = free_colour(edge);
-    uint word = colour < 32u ? k_used_low : k_used_high;
+    uint word = edge.colour < 32u ? k_used_low : k_used_high;
     for (uint end = 0u; end < 2u; ++end) {
-        if (edge.obstructs[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (colour & 31u);
-        if (edge.is_shared && is_found_hub(edge.body[end]))
-            atomicAdd(body_colours[body_word(edge.body[end], k_hub_word)], 1u);
+        if (edge.obstructs[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (edge.colour & 31u);
     }
-    manifold_keys[pair] = colour;
-    if (colour < k_first_hub_colour)
-        atomicMax(counters[k_counter_colour_demand], colour + 1u);
+    if (edge.is_shared) {
+        atomicAdd(body_colours[body_word(edge.hub, k_hub_word)], 1u);
+        atomicAdd(body_colours[body_word(edge.hub, k_shared_load)], edge.part);
+    }
+    manifold_keys[pair] = edge.colour;
+    if (edge.colour < k_first_hub_colour)
+        atomicMax(counters[k_counter_colour_demand], edge.colour + 1u);
     else
         atomicAdd(counters[k_counter_hub_manifolds], 1u);
     uncoloured[entry] = k_none;
@@ -135,12 +163,24 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     uint entry_count = counters[k_counter_uncoloured];
+    if (me == 0u) has_hubs = false;
+    barrier();
     for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x) {
         find_hub(manifolds[uncoloured[entry]].body_a);
         find_hub(manifolds[uncoloured[entry]].body_b);
     }
     groupMemoryBarrier();
     barrier();
+    if (has_hubs) {
+        for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
+            find_largest_load(uncoloured[entry]);
+        groupMemoryBarrier();
+        barrier();
+        for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
+            add_load(uncoloured[entry]);
+        groupMemoryBarrier();
+        barrier();
+    }
     uint rank_word = k_best_rank;
     bool done = entry_count == 0u;
     while (!done) {

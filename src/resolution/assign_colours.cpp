@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "device/cpu/cpu_state.h"
+#include "resolution/hub_load.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
@@ -33,39 +34,60 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         }
     }
 
+    const auto movable = [&](uint body) { return is_movable(state.shapes[body]); };
+    const auto of_hub = [&](uint body) { return word_of(body, k_hub_word) != 0; };
+    const auto hub_of = [&](const Manifold& manifold) {
+        return of_hub(manifold.body_a) ? manifold.body_a : manifold.body_b;
+    };
+    const auto hub_count_of = [&](const Manifold& manifold) {
+        return of_hub(manifold.body_a) + of_hub(manifold.body_b);
+    };
+    for (const Edge& edge : edges) {
+        const Manifold& manifold = state.manifolds[edge.pair];
+        if (hub_count_of(manifold) != 1) continue;
+        uint& largest = word_of(hub_of(manifold), k_largest_load);
+        largest = max(largest, state.manifold_keys[edge.pair]); // not negative: ordered as the floats
+    }
+    for (const Edge& edge : edges) {
+        const uint hub = hub_of(state.manifolds[edge.pair]);
+        if (hub_count_of(state.manifolds[edge.pair]) == 1)
+            word_of(hub, k_whole_load) +=
+                part_of_load(state, edge.pair, uintBitsToFloat(state.manifold_keys[edge.pair]), hub);
+    }
+
     for (const Edge& edge : edges) {
         const Manifold& manifold = state.manifolds[edge.pair];
         const std::array bodies{manifold.body_a, manifold.body_b};
-        const auto movable = [&](uint body) { return is_movable(state.shapes[body]); };
-        const auto of_hub = [&](uint body) { return word_of(body, k_hub_word) != 0; };
-        const auto hub_count = std::ranges::count_if(bodies, of_hub);
-        bool is_shared = hub_count == 1;
-        if (is_shared && !std::ranges::all_of(bodies, movable)) {
-            const uint hub = of_hub(bodies[0]) ? bodies[0] : bodies[1];
-            is_shared = colour_below_hub(word_of(hub, k_used_low), word_of(hub, k_used_high), state.parameters) ==
-                        k_overflow_colour;
-        }
-        const auto obstructs = [&](uint body) { return movable(body) && !(of_hub(body) && is_shared); };
-
-        uint low = 0, high = 0;
+        const auto hub_count = hub_count_of(manifold);
+        const uint hub = hub_of(manifold),
+                   part = hub_count == 1
+                              ? part_of_load(state, edge.pair, uintBitsToFloat(state.manifold_keys[edge.pair]), hub)
+                              : 0;
+        uint usable = hub_count == 0 ? state.parameters.usable_colours : 0;
+        if (hub_count == 1)
+            usable = colours_below_hubs(carries_hub(part, word_of(hub, k_whole_load), manifold.colour),
+                                        std::ranges::all_of(bodies, movable), manifold.colour,
+                                        word_of(hub, k_largest_load), state.parameters);
+        uint low = 0, high = 0, high_of_other = 0;
         for (const uint body : bodies) {
-            if (!obstructs(body)) continue;
+            if (!movable(body)) continue;
             low |= word_of(body, k_used_low);
             high |= word_of(body, k_used_high);
+            if (!of_hub(body)) high_of_other = word_of(body, k_used_high);
         }
-        uint colour = first_free_colour(low, high, state.parameters.usable_colours);
-        if (hub_count == 1)
-            colour = is_shared ? first_free_hub_colour(high) : colour_below_hub(low, high, state.parameters);
-        if (hub_count == 2) colour = k_overflow_colour;
+        uint colour = first_free_colour(low, high, usable);
+        const bool is_shared = hub_count == 1 && colour == k_overflow_colour;
+        if (is_shared) colour = first_free_hub_colour(high_of_other);
         state.manifold_keys[edge.pair] = colour;
         if (colour == k_overflow_colour) {
             ++state.counters[k_counter_overflow_count];
             continue;
         }
         for (const uint body : bodies) {
-            if (is_shared && of_hub(body))
+            if (is_shared && of_hub(body)) {
                 ++word_of(body, k_hub_word);
-            else if (obstructs(body))
+                word_of(body, k_shared_load) += part;
+            } else if (movable(body))
                 word_of(body, colour < 32 ? k_used_low : k_used_high) |= 1u << (colour & 31u);
         }
         if (colour < k_first_hub_colour)

@@ -6,16 +6,16 @@
 
 // Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
 // cannot be pushed: the other's number holds.
-inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, float inverse_mass_a,
-                                          float inverse_mass_b, BodyInertia inertia_a, BodyInertia inertia_b)
+inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, float hub_share,
+                                          float inverse_mass_a, float inverse_mass_b, BodyInertia inertia_a, BodyInertia inertia_b)
 {
     bool pushes_a = (inertia_a.traits & k_trait_movable) != 0u;
     bool pushes_b = (inertia_b.traits & k_trait_movable) != 0u;
     vec3 none = vec3(0.0f, 0.0f, 0.0f);
     vec4 no_points = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     uint traits = traits_of_constraint(inertia_a, inertia_b, colour);
-    precise float inverse_masses = share_inverse_mass(inverse_mass_a, inertia_a, traits) +
-                                   share_inverse_mass(inverse_mass_b, inertia_b, traits >> k_traits_of_b);
+    precise float inverse_masses = share_inverse_mass(inverse_mass_a, hub_share, traits) +
+                                   share_inverse_mass(inverse_mass_b, hub_share, traits >> k_traits_of_b);
     ContactConstraint c;
     c.body_a = manifold.body_a;
     c.body_b = manifold.body_b;
@@ -40,7 +40,7 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
         vec3(manifold.tangent_impulse_1, manifold.tangent_impulse_2, manifold.twist_impulse) *
         reciprocal(float(c.substeps));
     c.friction_impulse = friction_impulse;
-    c.reserved_1 = 0.0f;
+    c.hub_share = hub_share;
     c.moment = none;
     c.reserved_2 = 0.0f;
     c.normal_impulse = no_points;
@@ -92,6 +92,13 @@ inline float impulse_of_step(float normal_impulse, float total_impulse, uint sub
     precise float lasting = normal_impulse * float(substeps);
     precise float twice = 2.0f * total_impulse;
     return max(lasting > twice ? total_impulse : lasting, 0.0f);
+}
+
+// What becomes of Manifold::colour.
+inline uint colour_of_step(uint key, uint its_traits)
+{
+    uint colour = key & ((1u << k_colour_bits) - 1u);
+    return (its_traits & k_trait_whole_hub) != 0u ? colour | k_whole_hub : colour;
 }
 
 // Impulses of the whole step, and the sub-steps that their load asks for in the next one. The load is a running mean:

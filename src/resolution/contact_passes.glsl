@@ -33,6 +33,7 @@ uint slot_a;
 uint slot_b;
 uint traits;
 uint substeps;
+float hub_share;
 vec3 gap_at_start;
 vec4 base_separation;
 ManifoldRows rows;
@@ -49,6 +50,7 @@ void take_constraint(uint index)
     slot_b = slot_of(body_b);
     traits = c.traits;
     substeps = c.substeps;
+    hub_share = c.hub_share;
     gap_at_start = c.gap;
     base_separation = c.base_separation;
     rows = make_rows(c, inertia_a, inertia_b);
@@ -124,7 +126,7 @@ void put_velocity(uint index, uint body, uint slot, uint its_traits, BodyVelocit
 {
     if (after.inverse_mass == 0.0) return;
     if (k_hubs && (its_traits & k_trait_hub) != 0u)
-        put_change(index, change_of_hub(body, before, after, unpack(inertias[body])));
+        put_change(index, change_of_hub(body, before, after, hub_share));
     else
         store_velocity(slot, after);
 }

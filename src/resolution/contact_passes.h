@@ -61,7 +61,7 @@ inline void put_velocity(CpuState& state, uint index, uint body, uint its_traits
         state.velocities[body] = after;
     else
         state.hub_changes[index - state.colour_offsets[k_first_hub_colour]] =
-            change_of_hub(body, before, after, state.inertias[body]);
+            change_of_hub(body, before, after, state.constraints[index].hub_share);
 }
 
 inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep, uint index) {

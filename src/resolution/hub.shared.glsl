@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: MIT
 // What the solver makes of hubs (which those are: colouring.shared.glsl). Needs resolution/manifold_rows.shared.glsl.
 //
-// The constraints in a hub's colour are solved side by side, though they share a body. Each is given a share of the hub,
-// with an n-th of its mass and inertia where n are solved so. What they do to their shares is then added up: the hub
-// moves as the mean of its shares, and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid
+// The constraints in a hub's colour are solved side by side, though they share a body. Each is given a share of its mass
+// and inertia (hub_load.shared.glsl). What they do to their shares is then added up: the hub moves as their weighted
+// mean, and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid
 // Body Simulation", 2012).
+
+inline bool is_hub_colour(uint colour) { return colour >= k_first_hub_colour && colour < k_max_colours; }
 
 // Of both bodies. In the other colours a hub is a body as others are.
 inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
 {
     uint mask = k_trait_movable | k_trait_round;
-    if (colour >= k_first_hub_colour && colour < k_max_colours) mask |= k_trait_hub;
-    return (a.traits & mask) | ((b.traits & mask) << k_traits_of_b);
+    if (is_hub_colour(colour)) mask |= k_trait_hub;
+    uint traits = (a.traits & mask) | ((b.traits & mask) << k_traits_of_b);
+    if (((a.traits | b.traits) & k_trait_hub) != 0u && colour < k_first_hub_colour) traits |= k_trait_whole_hub;
+    return traits;
 }
 
-inline float share_inverse_mass(float inverse_mass, BodyInertia m, uint its_traits)
+inline float share_inverse_mass(float inverse_mass, float share, uint its_traits)
 {
-    precise float of_share = inverse_mass * float(m.traits >> k_trait_shares);
+    precise float of_share = inverse_mass * reciprocal(share);
     return (its_traits & k_trait_hub) != 0u ? of_share : inverse_mass;
 }
 
 // What a constraint does to the hub itself, of the velocities that its share had before and has after a pass. The linear
 // part is the hub's already, as BodyVelocity::inverse_mass is.
-inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity after, BodyInertia m)
+inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity after, float share)
 {
     precise vec3 linear = after.linear - before.linear;
-    precise vec3 angular = (after.angular - before.angular) * reciprocal(float(m.traits >> k_trait_shares));
+    precise vec3 angular = (after.angular - before.angular)  * share;
     HubChange change;
     change.linear = linear;
     change.body = body;

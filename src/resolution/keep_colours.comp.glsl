@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
-// is valid), a new one is listed as uncoloured, and so is a hub's, as it may be one no longer. Also counts manifolds and
+// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes. Also counts manifolds and
 // contact points.
-// Reads: Manifolds, Shapes.
-// Writes: ManifoldKeys (the colour), ManifoldOrder (the pair), BodyColours, Uncoloured, Counters. The order of the list
-// depends on who comes first; nothing that is made from it does.
+// Reads: Manifolds, ManifoldPoints, Shapes.
+// Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
+// Counters. The order of the list depends on who comes first; nothing that is made from it does.
 // Needs: barriers after clear_colours and collide_pairs.
 // Overflow: none; the list has room for every pair.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/hub_load.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -20,6 +21,8 @@ layout(std430) writeonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) buffer BodyColours { uint body_colours[]; };
 layout(std430) writeonly buffer Uncoloured { uint uncoloured[]; };
 layout(std430) buffer Counters { uint counters[]; };
+
+#include "resolution/hub_load.glsl"
 
 void use_colour(uint body, uint colour)
 {
@@ -49,6 +52,7 @@ void main()
             use_colour(manifold.body_b, colour);
             atomicMax(counters[k_counter_colour_demand], colour + 1u);
         } else {
+            colour = floatBitsToUint(load_on(pair, manifold.point_count));
             uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair;
             want_colour(manifold.body_a);
             want_colour(manifold.body_b);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of keep_colours.comp.glsl.
 #include "device/cpu/cpu_state.h"
+#include "resolution/hub_load.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
@@ -28,6 +29,7 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
                 use_colour(manifold.body_b, colour);
                 state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
             } else {
+                colour = floatBitsToUint(load_on(state, pair));
                 state.uncoloured[state.counters[k_counter_uncoloured]++] = pair;
                 want_colour(manifold.body_a);
                 want_colour(manifold.body_b);

@@ -126,7 +126,7 @@ TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places,
     const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
         scatter(state.constraints.data, places, cell, lanes, {x, y, z, w});
     };
-    put(11, is.friction.x, is.friction.y, is.friction.z, was.reserved_1);
+    put(11, is.friction.x, is.friction.y, is.friction.z, was.hub_share);
     put(12, is.moment.x, is.moment.y, is.moment.z, was.reserved_2);
     put(13, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
     put(14, is.total.x, is.total.y, is.total.z, is.total.w);

@@ -155,10 +155,10 @@ inline ManifoldRows couple_rows(ManifoldRows rows, NormalResponse r)
 }
 
 // Of a share of a hub. `its_traits`: the constraint's, of this body.
-inline BodyInertia share_inertia(BodyInertia m, uint its_traits)
+inline BodyInertia share_inertia(BodyInertia m, float hub_share, uint its_traits)
 {
     if (all_lanes((its_traits & k_trait_hub) == 0u)) return m;
-    float shares = choose_active((its_traits & k_trait_hub) != 0u, float(m.traits >> k_trait_shares), 1.0f);
+    float shares = choose_active((its_traits & k_trait_hub) != 0u, reciprocal(hub_share), 1.0f);
     precise vec3 diagonal = vec3(m.xx, m.yy, m.zz) * shares;
     precise vec3 rest = vec3(m.xy, m.xz, m.yz) * shares;
     BodyInertia share;
@@ -179,8 +179,8 @@ inline Meeting make_meeting(ContactConstraint c, BodyInertia inertia_a, BodyIner
     m.frame = contact_frame(c.normal);
     m.centre_a = c.centre_a;
     m.centre_b = c.centre_b;
-    m.inertia_a = share_inertia(inertia_a, c.traits);
-    m.inertia_b = share_inertia(inertia_b, c.traits >> k_traits_of_b);
+    m.inertia_a = share_inertia(inertia_a, c.hub_share, c.traits);
+    m.inertia_b = share_inertia(inertia_b, c.hub_share, c.traits >> k_traits_of_b);
     m.inverse_masses = c.inverse_masses;
     return m;
 }

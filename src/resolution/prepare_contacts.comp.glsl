@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
-// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, Velocities, Inertias.
+// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, BodyColours, Velocities, Inertias.
 // Writes: Constraints.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
+#include "resolution/colouring.shared.glsl"
+#include "resolution/hub_load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
@@ -19,10 +21,21 @@ layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
-layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
+layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
+
+#include "resolution/hub_load.glsl"
+
+float share_of_contact(Manifold manifold, uint pair, uint colour)
+{
+    if (!is_hub_colour(colour)) return 1.0;
+    bool of_a = (unpack(inertias[manifold.body_a]).traits & k_trait_hub) != 0u;
+    uint hub = of_a ? manifold.body_a : manifold.body_b;
+    return share_of_hub(part_of_load(manifold, load_on(pair, manifold.point_count), hub), body_colours[body_word(hub, k_shared_load)],
+                        shares_of_hub(body_colours[body_word(hub, k_hub_word)]));
+}
 
 void main()
 {
@@ -34,8 +47,8 @@ void main()
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
     uint colour = manifold_keys[index] & ((1u << k_colour_bits) - 1u);
     ContactConstraint c =
-        begin_constraint(manifold, manifold_index, colour, unpack(velocities[manifold.body_a]).inverse_mass,
-                         unpack(velocities[manifold.body_b]).inverse_mass, inertia_a, inertia_b);
+        begin_constraint(manifold, manifold_index, colour, share_of_contact(manifold, manifold_index, colour),
+                         unpack(velocities[manifold.body_a]).inverse_mass, unpack(velocities[manifold.body_b]).inverse_mass, inertia_a, inertia_b);
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
         c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]));

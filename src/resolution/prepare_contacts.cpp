@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of prepare_contacts.comp.glsl.
 #include "device/cpu/cpu_state.h"
+#include "resolution/hub_load.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
+
+static float share_of_contact(const CpuState& state, uint pair, uint colour) {
+    if (!is_hub_colour(colour)) return 1.0f;
+    const Manifold& manifold = state.manifolds[pair];
+    const bool of_a = (state.inertias[manifold.body_a].traits & k_trait_hub) != 0;
+    const uint hub = of_a ? manifold.body_a : manifold.body_b;
+    return share_of_hub(part_of_load(state, pair, load_on(state, pair), hub),
+                        state.body_colours[body_word(hub, k_shared_load)],
+                        shares_of_hub(state.body_colours[body_word(hub, k_hub_word)]));
+}
 
 static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
     state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
@@ -15,7 +26,8 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
         const uint colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
         const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * manifold_index];
         ContactConstraint& c = state.constraints[index];
-        c = begin_constraint(manifold, manifold_index, colour, state.velocities[manifold.body_a].inverse_mass,
+        c = begin_constraint(manifold, manifold_index, colour, share_of_contact(state, manifold_index, colour),
+                             state.velocities[manifold.body_a].inverse_mass,
                              state.velocities[manifold.body_b].inverse_mass, inertia_a, inertia_b);
         for (uint i = 0; i < manifold.point_count; ++i)
             c = add_to_centre(c, points[i]);

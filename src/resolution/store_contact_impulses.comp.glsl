@@ -35,7 +35,7 @@ void main()
         impulse[i] = of_step;
     }
     Manifold manifold = unpack(manifolds[c.manifold]);
-    manifold.colour = manifold_keys[index] & ((1u << k_colour_bits) - 1u);
+    manifold.colour = colour_of_step(manifold_keys[index], c.traits);
     manifolds[c.manifold] = pack(finish_manifold(manifold, c, impulse, unpack(properties[c.body_a]).inverse_mass,
                                                  unpack(properties[c.body_b]).inverse_mass, parameters));
 }

@@ -16,7 +16,7 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch&) {
             impulse[i] = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], c.substeps);
             points[i].normal_impulse = impulse[i];
         }
-        manifold.colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
+        manifold.colour = colour_of_step(state.manifold_keys[index], c.traits);
         manifold = finish_manifold(manifold, c, impulse, state.properties[c.body_a].inverse_mass,
                                    state.properties[c.body_b].inverse_mass, state.parameters);
     });

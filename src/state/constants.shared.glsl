@@ -37,7 +37,7 @@ const uint k_trait_movable = 1u; // contacts can push the body
 const uint k_trait_round = 2u;   // a sphere: where it is touched does not turn with it
 const uint k_trait_hub = 4u;     // a hub; in a constraint: of whose mass this is a share
 const uint k_trait_grouped = 8u; // of an island that a work group solves
-const uint k_trait_shares = 8u;  // from this bit on: the number of shares
+const uint k_trait_whole_hub = 256u; // only in a constraint: of a hub, in a colour where that is a body as others are
 
 // BodyProperties::combine
 const uint k_combine_average = 0u;
@@ -53,6 +53,7 @@ const uint k_overflow_colour = 64u;
 const uint k_inactive_colour = 127u;
 const uint k_colour_bits = 7u; // of a manifold's key: the colour in the low bits, the island above
 const uint k_no_colour = 0xffu; // not coloured yet
+const uint k_whole_hub = 0x80u; // Manifold::colour has it added where the manifold met a hub with its whole mass
 
 // Words of the Counters buffer. "demand" counts what was wanted, also beyond a buffer's end.
 const uint k_counter_body_count = 0u;

@@ -89,7 +89,7 @@ struct BodyInertia {
     float xy;
     float xz;
     float yz;
-    uint traits;   // k_trait_*, and from bit k_trait_shares on the shares that a hub's mass is split into
+    uint traits;   // k_trait_*
     uint substeps; // sub-steps of its island
 };
 
@@ -106,7 +106,7 @@ struct Manifold {
     uint body_a;
     uint body_b;
     uint point_count; // 0 to 4
-    uint colour;      // batch of the constraint graph, k_no_colour before it has one
+    uint colour;      // batch of the constraint graph, k_no_colour before it has one; see k_whole_hub
     vec3 normal;      // unit, world, from A to B
     uint axis;        // the separating axis it stands on, see narrow_phase/collide_boxes.shared.glsl
     float friction;
@@ -143,7 +143,7 @@ struct ContactConstraint {
     vec3 centre_b; // m, from B's centre
     float inverse_masses; // 1/kg, the sum of both
     vec3 gap;             // m, from A's middle of the points to B's, at the start of the step
-    uint traits;          // k_trait_* of A, and of B four bits higher
+    uint traits;          // k_trait_* of A, and of B four bits higher; k_trait_whole_hub
     vec3 friction_mass;   // kg, kg, kg m^2: along the frame's x and y, and about the normal
     uint substeps;
     vec4 x; // m, from the middle of the points, in the contact's frame
@@ -153,7 +153,7 @@ struct ContactConstraint {
     vec4 normal_mass;     // kg, effective mass along the normal (equation 3.15)
     // What the solver's passes change.
     vec3 friction_impulse; // N s, N s, N m s, accumulated
-    float reserved_1;
+    float hub_share;       // of a hub's mass, in the colours for hubs
     vec3 moment; // N m s: of the accumulated impulses, for the way that the bodies have come (contact.shared.glsl)
     float reserved_2;
     vec4 normal_impulse; // N s, accumulated
