@@ -195,6 +195,21 @@ TEST_P(HubShares, are_the_same_bits_on_every_device_and_with_one_thread) {
     }
 }
 
+TEST_P(HubShares, are_the_same_bits_in_one_persistent_launch_and_in_many) {
+    Settings settings = with_hubs();
+    settings.substeps = settings.max_substeps = 2; // renderers in software end long loops
+    EngineRun one(options_on(GetParam()), plate_with_a_block(), settings);
+    EngineRun many(options_on(GetParam()), plate_with_a_block(), settings);
+    one.step(); // finds out how much room the hubs need
+    many.step();
+    for (int i = 0; i < 3; ++i) {
+        one.step_persistently(false);
+        many.step_in_many_launches();
+        ASSERT_TRUE(one.motion() == many.motion()) << "step " << i;
+    }
+    EXPECT_GT(one.counter(engine::k_counter_hub_manifolds), 0u);
+}
+
 TALUS_ON_EVERY_DEVICE(HubShares);
 
 } // namespace

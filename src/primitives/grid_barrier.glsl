@@ -2,7 +2,8 @@
 // A barrier across all groups of a launch. OpenGL does not promise that groups which wait let others run, so a launch may
 // have only as many as are known to run side by side: Device::resident_groups, which asks count_resident_groups here.
 
-layout(std430) coherent buffer Arrivals { uint arrivals[]; }; // 0: groups that have arrived; 1: what was counted
+// 0: groups that have arrived; 1: what was counted
+layout(std430) coherent volatile buffer Arrivals { uint arrivals[]; };
 
 uint meetings = 0u;
 
@@ -15,10 +16,9 @@ void wait_for_all_groups()
     ++meetings;
     if (gl_LocalInvocationID.x == 0u) {
         atomicAdd(arrivals[0], 1u);
-        while (atomicAdd(arrivals[0], 0u) < meetings * gl_NumWorkGroups.x) {}
+        while (arrivals[0] < meetings * gl_NumWorkGroups.x) {}
     }
-    barrier();
-    memoryBarrierBuffer();
+    barrier(); // reads of coherent buffers that follow are of what is there now
 }
 
 const uint k_patience_of_groups = 4096u; // rounds; some milliseconds
@@ -30,7 +30,7 @@ void count_resident_groups()
     if (gl_LocalInvocationID.x != 0u) return;
     atomicAdd(arrivals[0], 1u);
     for (uint i = 0u; i < k_patience_of_groups; ++i) {
-        if (atomicAdd(arrivals[1], 0u) != 0u) return;
+        if (arrivals[1] != 0u) return;
     }
-    atomicCompSwap(arrivals[1], 0u, atomicAdd(arrivals[0], 0u));
+    atomicCompSwap(arrivals[1], 0u, arrivals[0]);
 }

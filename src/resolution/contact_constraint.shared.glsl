@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From a manifold to the solver's record of it, and back.
-// Needs resolution/manifold_rows.shared.glsl, hub.shared.glsl and softness.shared.glsl.
+// Needs resolution/manifold_rows.shared.glsl, hub.shared.glsl, softness.shared.glsl and island.shared.glsl.
 
 // ---- from a manifold to a constraint ----
 
@@ -97,7 +97,7 @@ inline float impulse_of_step(float normal_impulse, float total_impulse, uint sub
 // What becomes of Manifold::colour.
 inline uint colour_of_step(uint key, uint its_traits)
 {
-    uint colour = key & ((1u << k_colour_bits) - 1u);
+    uint colour = colour_of_key(key);
     return (its_traits & k_trait_whole_hub) != 0u ? colour | k_whole_hub : colour;
 }
 

@@ -60,7 +60,7 @@ void take_constraint(uint index)
 // In the last cells of the record: see ContactConstraint.
 void put_back_impulses(uint index)
 {
-    cell_in_block(constraints, index, 11u) = uvec4(floatBitsToUint(impulses.friction), 0u);
+    cell_in_block(constraints, index, 11u).xyz = floatBitsToUint(impulses.friction); // beside hub_share
     cell_in_block(constraints, index, 12u) = uvec4(floatBitsToUint(impulses.moment), 0u);
     cell_in_block(constraints, index, 13u) = floatBitsToUint(impulses.normal);
     cell_in_block(constraints, index, 14u) = floatBitsToUint(impulses.total);

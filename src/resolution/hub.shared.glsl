@@ -29,7 +29,7 @@ inline float share_inverse_mass(float inverse_mass, float share, uint its_traits
 inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity after, float share)
 {
     precise vec3 linear = after.linear - before.linear;
-    precise vec3 angular = (after.angular - before.angular)  * share;
+    precise vec3 angular = (after.angular - before.angular) * share;
     HubChange change;
     change.linear = linear;
     change.body = body;

@@ -6,6 +6,8 @@
 
 // Manifolds are sorted by what solves them, and within it by colour: by island in a small world, by group in a large one.
 inline uint manifold_key(uint island, uint colour) { return (island << k_colour_bits) | colour; }
+inline uint colour_of_key(uint key) { return key & ((1u << k_colour_bits) - 1u); }
+inline uint island_of_key(uint key) { return key >> k_colour_bits; }
 
 // ---- large worlds ----
 

@@ -12,6 +12,7 @@
 #include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
+#include "resolution/island.shared.glsl"
 #include "resolution/contact_constraint.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -45,7 +46,7 @@ void main()
     Manifold manifold = unpack(manifolds[manifold_index]);
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
-    uint colour = manifold_keys[index] & ((1u << k_colour_bits) - 1u);
+    uint colour = colour_of_key(manifold_keys[index]);
     ContactConstraint c =
         begin_constraint(manifold, manifold_index, colour, share_of_contact(manifold, manifold_index, colour),
                          unpack(velocities[manifold.body_a]).inverse_mass, unpack(velocities[manifold.body_b]).inverse_mass, inertia_a, inertia_b);

@@ -23,7 +23,7 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
         const Manifold& manifold = state.manifolds[manifold_index];
         const BodyInertia& inertia_a = state.inertias[manifold.body_a];
         const BodyInertia& inertia_b = state.inertias[manifold.body_b];
-        const uint colour = state.manifold_keys[index] & ((1u << k_colour_bits) - 1);
+        const uint colour = colour_of_key(state.manifold_keys[index]);
         const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * manifold_index];
         ContactConstraint& c = state.constraints[index];
         c = begin_constraint(manifold, manifold_index, colour, share_of_contact(state, manifold_index, colour),

@@ -28,7 +28,8 @@ inline bool is_left_alone(BodyPose pose, BodyVelocity velocity, BodyShape shape)
 inline uint sleep_flags(uint flags, bool asleep) { return asleep ? flags | k_body_asleep : flags & ~k_body_asleep; }
 
 // Of a body that has to begin its rest anew.
-inline uint wake_flags(uint flags) { return flags & ((1u << k_rest_shift) - 1u) & ~k_body_asleep; }
+inline uint without_rest(uint flags) { return flags & ((1u << k_rest_shift) - 1u); }
+inline uint wake_flags(uint flags) { return without_rest(flags) & ~k_body_asleep; }
 
 // From where a body's way is measured.
 inline BodyRest begin_rest(BodyPose pose)
@@ -65,7 +66,7 @@ inline uint count_rest(uint flags, Parameters p)
 {
     uint steps = (flags >> k_rest_shift) + 1u;
     if (steps >= 2u * p.rest_steps) steps = p.rest_steps;
-    return (flags & ((1u << k_rest_shift) - 1u)) | (steps << k_rest_shift);
+    return without_rest(flags) | (steps << k_rest_shift);
 }
 
 // Whether a body's way is measured from here on: its rest has ended, or lasted long enough once more.

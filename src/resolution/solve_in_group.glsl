@@ -117,9 +117,8 @@ void find_colours(uint group)
     barrier();
     // A manifold whose key is another one than that before it begins its colour, and those in between.
     for (uint index = first + me; index < end; index += gl_WorkGroupSize.x) {
-        uint mask = (1u << k_colour_bits) - 1u;
-        uint colour = manifold_keys[index] & mask;
-        uint before = index > first ? manifold_keys[index - 1u] & mask : 0u;
+        uint colour = colour_of_key(manifold_keys[index]);
+        uint before = index > first ? colour_of_key(manifold_keys[index - 1u]) : 0u;
         for (uint each = before + 1u; each <= min(colour, k_max_colours + 1u); ++each)
             colour_offsets[each] = index;
     }
@@ -142,6 +141,8 @@ void integrate_own_bodies(uint substep)
         if (((own_bodies >> i) & 1u) == 1u) integrate_body(own_body(i), substep);
     }
 }
+
+void finish_colour(uint colour, uint substep) {}
 
 #include "resolution/solve_substeps.glsl"
 

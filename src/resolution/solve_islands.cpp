@@ -21,7 +21,7 @@ std::vector<IslandWork> collect_islands(const CpuState& state) {
     uint index = 0, taken = 0;
     for (uint island = 0; island < body_count; ++island) {
         part_of[island] = static_cast<uint>(parts.size()) - 1;
-        for (; index < manifold_count && state.manifold_keys[index] >> k_colour_bits == island; ++index, ++taken)
+        for (; index < manifold_count && island_of_key(state.manifold_keys[index]) == island; ++index, ++taken)
             parts.back().add_constraint(state, index);
         if (taken < share) continue;
         parts.emplace_back();
@@ -38,7 +38,7 @@ std::vector<IslandWork> collect_islands(const CpuState& state) {
 } // namespace
 
 void IslandWork::add_constraint(const CpuState& state, uint constraint) {
-    colours[state.manifold_keys[constraint] & ((1u << k_colour_bits) - 1)].push_back(constraint);
+    colours[colour_of_key(state.manifold_keys[constraint])].push_back(constraint);
 }
 
 void solve_together(CpuState& state, const IslandWork& islands) {

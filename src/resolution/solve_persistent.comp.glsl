@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // All sub-steps of what no work group solves alone, in one launch: its groups stay until the end and wait for each other
 // after every colour. That costs less than a launch does, the code is fetched once, and where there are no more manifolds
-// than invocations each is loaded once. For worlds without hubs in which nothing bounces.
+// than invocations each is loaded once. For worlds in which nothing bounces.
 // args.x: 1 to count how many groups can run at a time instead.
-// Reads: ColourOffsets, Inertias, Shapes, Properties, Loads.
+// Reads: ColourOffsets, Hubs, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
-// Arrivals.
+// HubChanges, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; arrivals[0] is 0.
 // Overflow: none; does nothing after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -22,6 +22,8 @@ layout(local_size_x = 384) in; // fewer leave waits unfilled; more have too few 
 
 layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
+layout(std430) readonly buffer Hubs { uint hubs[]; };
+layout(std430) coherent buffer HubChanges { HubChange hub_changes[]; };
 layout(std430) coherent buffer Velocities { BodyVelocityCells velocities[]; };
 
 uint slot_of(uint body) { return body; }
@@ -40,11 +42,23 @@ BodyDelta load_delta(uint body) { return load_stored_delta(body); }
 void store_delta(uint body, BodyDelta delta) { store_stored_delta(body, delta); }
 
 const bool k_bounces = false;
-const bool k_hubs = false;
-void put_change(uint index, HubChange change) {}
+const bool k_hubs = true;
+
+void put_change(uint index, HubChange change)
+{
+    hub_changes[index - colour_offsets[k_first_hub_colour]] = change;
+}
+
+// As of load_velocity.
+HubChange load_change(uint i)
+{
+    HubChange change = hub_changes[i];
+    return change;
+}
 
 #include "resolution/contact_passes.glsl"
 #include "resolution/body_passes.glsl"
+#include "resolution/move_hubs.glsl"
 #include "primitives/grid_barrier.glsl"
 
 // Neighbours in the order of manifolds are 32 by 32 in different groups, as there are often fewer of a colour than
@@ -59,6 +73,14 @@ uint worker()
 uint worker_count() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x; }
 
 void wait_for_workers() { wait_for_all_groups(); }
+
+void finish_colour(uint colour, uint substep)
+{
+    if (colour < k_first_hub_colour || colour >= k_max_colours) return;
+    for (uint i = gl_WorkGroupID.x; i < counters[k_counter_hub_count]; i += gl_NumWorkGroups.x)
+        move_hub_by_colour(hubs[i], colour, substep);
+    wait_for_all_groups();
+}
 
 void integrate_own_bodies(uint substep)
 {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of solve_persistent.comp.glsl: the launches that it stands for.
+#include <array>
+
 #include "resolution/contact_passes.h"
 #include "resolution/resolution.h"
 #include "resolution/solve_contacts.h"
@@ -9,8 +11,11 @@ namespace talus::engine {
 static void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
     const Parameters& p = state.parameters;
     const auto over_contacts = [&](ContactPass pass, uint substep) {
-        for (uint colour = 0; colour <= k_overflow_colour; ++colour)
-            solve_contacts_on_cpu(state, {.kernel = launch.kernel, .args = {colour, static_cast<uint>(pass), substep}});
+        for (uint colour = 0; colour <= k_overflow_colour; ++colour) {
+            const std::array args{colour, static_cast<uint>(pass), substep, 0u};
+            solve_contacts_on_cpu(state, {.kernel = launch.kernel, .args = args});
+            if (is_hub_colour(colour)) move_hubs.twin(state, {.kernel = move_hubs, .args = args});
+        }
     };
     const uint last = max(state.counters[k_counter_launched_substeps], p.least_substeps);
     for (uint substep = 0; substep <= last; ++substep) {

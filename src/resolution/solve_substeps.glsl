@@ -9,6 +9,7 @@
 // ColourOffsets does, and defines
 //   uint worker(), uint worker_count(): which of the workers this is, and of how many
 //   void wait_for_workers(): until all are here, and what they have written is seen
+//   void finish_colour(uint colour, uint substep): what follows a colour's pass, once all are here
 //   void integrate_own_bodies(uint substep): integrate_body for the worker's bodies
 
 uint end_index;    // of the manifolds with a colour; the overflow set follows
@@ -59,7 +60,9 @@ void pass_over_contacts(uint pass, uint substep)
             take_in_hand(index == k_none ? first_index : index); // the next pass begins with the first
             if (pass != k_warm_start && index != k_none) target = target_of_pass(pass);
         }
-        if (begin < end) wait_for_workers();
+        if (begin == end) continue;
+        wait_for_workers();
+        finish_colour(colour - 1u, substep);
         begin = end;
     }
 }

@@ -11,6 +11,7 @@
 #include "resolution/softness.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
+#include "resolution/island.shared.glsl"
 #include "resolution/contact_constraint.shared.glsl"
 
 layout(local_size_x = 64) in;

@@ -45,9 +45,10 @@ namespace talus::engine {
 #include "resolution/contact.shared.glsl"
 #include "resolution/hub.shared.glsl"
 
+#include "resolution/island.shared.glsl"
+
 #include "resolution/contact_constraint.shared.glsl"
 #include "resolution/hit.shared.glsl"
-#include "resolution/island.shared.glsl"
 
 #include "finish/contact_report.shared.glsl"
 

@@ -52,6 +52,15 @@ std::optional<uint> resident_groups_of_environment() {
     return groups;
 }
 
+/// Lets the driver compile kernels in as many threads as it likes.
+void compile_side_by_side() {
+    constexpr GLuint k_as_many_as_it_likes = 0xffffffffu;
+    if (epoxy_has_gl_extension("GL_ARB_parallel_shader_compile"))
+        glMaxShaderCompilerThreadsARB(k_as_many_as_it_likes);
+    else if (epoxy_has_gl_extension("GL_KHR_parallel_shader_compile"))
+        glMaxShaderCompilerThreadsKHR(k_as_many_as_it_likes);
+}
+
 } // namespace
 
 GlDevice::Objects::Objects(bool profile, bool program_cache)
@@ -71,6 +80,7 @@ GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile, bool pr
     GLint64 bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     max_block_bytes_ = static_cast<std::size_t>(bytes);
+    if (context_->is_own()) compile_side_by_side(); // of the caller's context it is a setting
     objects_ = std::make_unique<Objects>(profile, program_cache);
 }
 
