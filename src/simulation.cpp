@@ -246,7 +246,7 @@ void Simulation::write_body_count(uint slots) {
     enqueued_slots = slots;
 }
 
-StepPlan Simulation::plan_step(const Population& population) const {
+StepPlan Simulation::plan_in_launches(const Population& population) const {
     const Passes passes = passes_of(settings);
     StepPlan now = plan;
     now.body_count = population.slots;
@@ -269,18 +269,24 @@ StepPlan Simulation::plan_step(const Population& population) const {
     const bool launches = !(now.has_groups() || (now.sleeping && !now.small)) || plan.substep_capacity > 0;
     now.substep_capacity = launches ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;
     if (!launches) now.colour_capacity = 0;
-    if (launches && now.may_be_persistent() && solved_count <= k_most_persistent) {
-        now.persistent_groups = placement.resolution->resident_groups(solve_persistent);
-        if (now.persistent_groups > 0) { // nothing has to be known beforehand
-            now.colour_capacity = k_first_hub_colour;
-            now.substep_capacity = now.most_substeps;
-        }
-    }
     return now;
 }
 
-void Simulation::prepare_kernels(const StepPlan& first) {
+StepPlan Simulation::plan_step(const Population& population) const {
+    StepPlan now = plan_in_launches(population);
+    if (!now.may_be_persistent() || solved_count > k_most_persistent) return now;
+    now.persistent_groups = placement.resolution->resident_groups(solve_persistent);
+    if (now.persistent_groups == 0) return now;
+    now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
+    now.substep_capacity = now.most_substeps;
+    return now;
+}
+
+void Simulation::prepare_kernels(const Population& population) {
     if (kernels_prepared || !gpu) return;
+    StepPlan first = plan_in_launches(population);
+    // How many groups it will have is found by a trial of the kernel itself.
+    if (first.may_be_persistent() && gpu->loops_freely()) first.persistent_groups = 1;
     KernelList list(*gpu);
     for (std::size_t i = 0; i < k_stage_count; ++i) {
         const Stage stage{static_cast<int>(i)};
@@ -291,8 +297,8 @@ void Simulation::prepare_kernels(const StepPlan& first) {
 }
 
 void Simulation::enqueue(Pending entry) {
+    prepare_kernels(entry.population);
     const StepPlan now = plan_step(entry.population);
-    prepare_kernels(now);
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);

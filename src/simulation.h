@@ -98,8 +98,10 @@ private:
     /// With nothing on its way.
     void apply_now(const Population&, const BodyChanges&);
     void write_body_count(uint slots);
+    /// The next step's plan with a launch for each colour and pass.
+    StepPlan plan_in_launches(const Population&) const;
     /// Before the first step: the GPU's driver may compile all of its kernels side by side.
-    void prepare_kernels(const StepPlan&);
+    void prepare_kernels(const Population&);
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);

@@ -49,7 +49,7 @@ struct StepPlan {
     bool has_groups() const { return in_groups && !small; }
     bool needs_launches() const { return !(in_groups && small); }
     /// One persistent launch may make all passes, if the device has groups for it.
-    bool may_be_persistent() const { return needs_launches() && !bounces && !overflow; }
+    bool may_be_persistent() const { return needs_launches() && substep_capacity > 0 && !bounces && !overflow; }
 };
 
 /// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.
