@@ -27,8 +27,9 @@ constexpr uint k_first_reports = 256;
 constexpr std::size_t k_most_pending = k_ring_size - 1;
 // The heaviest load must not cost too much where a sub-step is launches for each colour.
 constexpr uint k_most_substeps_of_large = 32;
-// Manifolds: with more the launches are long enough, and all in one would be too long for a small GPU's watchdog.
-constexpr uint k_most_persistent = 1u << 24;
+// Manifolds an invocation of the persistent launch: with more, launches for each colour are long enough to be worth it,
+// and all in one might be too long for a watchdog.
+constexpr uint k_most_manifolds_each = 64;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
@@ -274,9 +275,10 @@ StepPlan Simulation::plan_in_launches(const Population& population) const {
 
 StepPlan Simulation::plan_step(const Population& population) const {
     StepPlan now = plan_in_launches(population);
-    if (!now.may_be_persistent() || solved_count > k_most_persistent) return now;
-    now.persistent_groups = placement.resolution->resident_groups(solve_persistent);
-    if (now.persistent_groups == 0) return now;
+    if (!now.may_be_persistent()) return now;
+    const uint groups = placement.resolution->resident_groups(solve_persistent);
+    if (groups == 0 || solved_count / k_most_manifolds_each > groups * solve_persistent.items_a_group) return now;
+    now.persistent_groups = groups;
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
     now.substep_capacity = now.most_substeps;
     return now;
