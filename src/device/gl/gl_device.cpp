@@ -100,8 +100,10 @@ GlDevice::~GlDevice() {
 uint GlDevice::resident_groups(const Kernel& kernel) {
     const auto [entry, is_new] = resident_groups_.try_emplace(kernel.path, 0);
     if (!is_new) return entry->second;
-    if (const std::optional<uint> wanted = resident_groups_of_environment()) return entry->second = *wanted;
-    if (!loops_freely()) return 0;
+    // A renderer in software runs one group after the other, and one alone waits for nobody.
+    const std::optional<uint> wanted = resident_groups_of_environment();
+    if (!loops_freely()) return entry->second = std::min(wanted.value_or(0), 1u);
+    if (wanted) return entry->second = *wanted;
     std::array<uint, 2> arrivals{};
     write(BufferId::Arrivals, 0, std::as_bytes(std::span(arrivals)));
     run({.kernel = kernel, .items = k_trial_groups * kernel.items_a_group, .args = {1}});
