@@ -27,8 +27,8 @@ constexpr uint k_first_reports = 256;
 constexpr std::size_t k_most_pending = k_ring_size - 1;
 // The heaviest load must not cost too much where a sub-step is launches for each colour.
 constexpr uint k_most_substeps_of_large = 32;
-// Manifolds an invocation of the persistent launch: with more, launches for each colour are long enough to be worth it,
-// and all in one might be too long for a watchdog.
+// Manifolds and iterations an invocation of the persistent launch: with more, launches for each colour are long enough
+// to be worth it, and all in one might be too long for a watchdog.
 constexpr uint k_most_manifolds_each = 64;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
@@ -277,7 +277,8 @@ StepPlan Simulation::plan_step(const Population& population) const {
     StepPlan now = plan_in_launches(population);
     if (!now.may_be_persistent()) return now;
     const uint groups = placement.resolution->resident_groups(solve_persistent);
-    if (groups == 0 || solved_count / k_most_manifolds_each > groups * solve_persistent.items_a_group) return now;
+    const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
+    if (passes > std::uint64_t{k_most_manifolds_each} * groups * solve_persistent.items_a_group) return now;
     now.persistent_groups = groups;
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
     now.substep_capacity = now.most_substeps;
@@ -390,7 +391,9 @@ void Simulation::collect_reports(Ticket ticket, std::span<const uint> counters) 
 void Simulation::follow_demand(std::span<const uint> counters) {
     const uint colours = counters[k_counter_launched_colours], substeps = counters[k_counter_launched_substeps];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
-    if (counters[k_counter_launched_overflow] > 0) plan.overflow = true;
+    const bool overflow = counters[k_counter_launched_overflow] > 0;
+    plan.overflow = plan.overflow || overflow;
+    window_overflow = window_overflow || overflow;
     const uint wanted_colours = std::min(colours + 1, k_first_hub_colour); // one to spare
     plan.colour_capacity = std::max(plan.colour_capacity, wanted_colours);
     plan.substep_capacity = std::max(plan.substep_capacity, substeps);
@@ -400,7 +403,9 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     if (++window_steps < k_demand_window) return;
     plan.colour_capacity = window_colours;
     plan.substep_capacity = window_substeps;
+    plan.overflow = window_overflow;
     if (window_hub_manifolds == 0) plan.hub_capacity = 0;
+    window_overflow = false;
     window_steps = window_colours = window_substeps = window_hub_manifolds = 0;
 }
 
@@ -433,6 +438,10 @@ void Simulation::redo(std::span<const uint> counters) {
             throw Error(
                 "a body has so many others around it that this renderer, which ends long loops, does not search the "
                 "tree of the broad phase to the end; the device Cpu does");
+        if ((reasons & k_fit_groups) != 0)
+            throw Error(
+                "this GPU did not run the work groups of solve_persistent side by side, though it did on trial, "
+                "so a step went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them wait for none");
         if ((reasons & k_fit_pairs) != 0) make_room_for_pairs(pair_demand);
         if ((reasons & k_fit_hubs) != 0) reserve_hub_manifolds(with_headroom(hub_manifolds));
     } catch (const Error&) {

@@ -208,6 +208,29 @@ TEST_P(Paths, one_persistent_launch_gives_the_bits_of_many) {
     }
 }
 
+TEST_P(Paths, gpus_solve_large_islands_in_one_launch) {
+    EngineRun run(options_on(GetParam()), many_islands(0.0f));
+    engine::Device& device = run.simulation.state_device();
+    const engine::uint groups = device.resident_groups(engine::solve_persistent);
+    if (GetParam() != DeviceKind::Gpu || !device.loops_freely()) {
+        EXPECT_EQ(groups, 0u);
+        GTEST_SKIP() << "NOT TESTED, this device has no groups that could wait for each other";
+    }
+    EXPECT_GT(groups, 1u);
+    run.simulation.reserve_pairs(8192);
+    run.step();
+    EXPECT_EQ(run.simulation.plan_step(run.table.population()).persistent_groups, groups);
+}
+
+TEST_P(Paths, groups_that_wait_in_vain_are_an_error) {
+    EngineRun run(options_on(GetParam()), many_islands(0.0f));
+    if (GetParam() != DeviceKind::Gpu || run.simulation.state_device().loops_freely())
+        GTEST_SKIP() << "NOT TESTED, this device does not run one group after the other";
+    run.simulation.reserve_pairs(8192);
+    run.step_persistently(false, 2);
+    EXPECT_EQ(run.counter(engine::k_counter_did_not_fit), engine::k_fit_groups);
+}
+
 TEST_P(Paths, islands_of_a_large_world_have_sub_steps_of_their_own) {
     EngineRun run(options_on(GetParam()), many_islands(0.0f));
     run.simulation.reserve_pairs(8192);

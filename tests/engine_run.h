@@ -46,11 +46,11 @@ public:
 
     /// A step of a large world whose launches for colours and passes are a single one: of as many groups as run side by
     /// side, or of one where that is not known. Work groups may take the little islands.
-    void step_persistently(bool in_groups) {
+    void step_persistently(bool in_groups, engine::uint least_groups = 1) {
         engine::StepPlan plan = plan_for_any_demand();
         plan.in_groups = in_groups;
         plan.persistent_groups =
-            std::max(simulation.state_device().resident_groups(engine::solve_persistent), engine::uint{1});
+            std::max(simulation.state_device().resident_groups(engine::solve_persistent), least_groups);
         step_as(plan);
     }
 

@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: MIT
 // A barrier across all groups of a launch. OpenGL does not promise that groups which wait let others run, so a launch may
 // have only as many as are known to run side by side: Device::resident_groups, which asks count_resident_groups here.
+// Before this file the kernel declares Counters.
 
 // 0: groups that have arrived; 1: what was counted
 layout(std430) coherent volatile buffer Arrivals { uint arrivals[]; };
 
 uint meetings = 0u;
+
+// Some seconds: nobody waits for so long whose partners run at all.
+const uint k_most_polls = 1u << 22;
+
+bool all_have_arrived() { return int(arrivals[0] - meetings * gl_NumWorkGroups.x) >= 0; }
+
+// Lets all go on, in this meeting and in all later ones. The host hears of it.
+void give_up()
+{
+    atomicAdd(arrivals[0], 0x40000000u);
+    atomicOr(counters[k_counter_did_not_fit], k_fit_groups);
+}
 
 // What invocations have written to coherent buffers before, those of all groups see afterwards. In uniform control flow.
 // arrivals[0] is 0 when the launch begins.
@@ -16,21 +29,30 @@ void wait_for_all_groups()
     ++meetings;
     if (gl_LocalInvocationID.x == 0u) {
         atomicAdd(arrivals[0], 1u);
-        while (arrivals[0] < meetings * gl_NumWorkGroups.x) {}
+        for (uint i = 0u; i < k_most_polls && !all_have_arrived(); ++i) {}
+        if (!all_have_arrived()) give_up();
     }
-    barrier(); // reads of coherent buffers that follow are of what is there now
+    barrier();
+    memoryBarrierBuffer(); // barrier() orders shared memory only
 }
 
-const uint k_patience_of_groups = 4096u; // rounds; some milliseconds
+const uint k_patience_of_groups = 4096u; // polls; some milliseconds
+
+shared uint polls_of_trial;
 
 // Of a launch of more groups than can run at a time: into arrivals[1], how many had begun when the first of them had
-// waited for long.
+// waited for long. All invocations stay until then, as in a launch that waits: some GPUs give the room of those that end
+// to other groups.
 void count_resident_groups()
 {
-    if (gl_LocalInvocationID.x != 0u) return;
-    atomicAdd(arrivals[0], 1u);
-    for (uint i = 0u; i < k_patience_of_groups; ++i) {
-        if (arrivals[1] != 0u) return;
+    if (gl_LocalInvocationID.x == 0u) {
+        atomicAdd(arrivals[0], 1u);
+        uint polls = 0u;
+        while (polls < k_patience_of_groups && arrivals[1] == 0u)
+            ++polls;
+        polls_of_trial = polls;
     }
-    atomicCompSwap(arrivals[1], 0u, arrivals[0]);
+    barrier();
+    bool is_last = gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u;
+    if (is_last && polls_of_trial == k_patience_of_groups) atomicCompSwap(arrivals[1], 0u, arrivals[0]);
 }

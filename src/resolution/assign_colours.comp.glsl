@@ -132,7 +132,8 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
     uint pair = uncoloured[entry];
     if (pair == k_none) return;
     Edge edge = load_edge(pair);
-    bool wins = true;
+    // Another edge of its hub may have taken a colour since it proposed: the last free one is asked for again.
+    bool wins = edge.colour != k_overflow_colour;
     for (uint end = 0u; end < 2u; ++end) {
         if (edge.obstructs[end]) {
             wins = wins && body_colours[body_word(edge.body[end], rank_word)] == edge.rank;

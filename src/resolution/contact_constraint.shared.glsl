@@ -7,7 +7,8 @@
 // Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
 // cannot be pushed: the other's number holds.
 inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, float hub_share,
-                                          float inverse_mass_a, float inverse_mass_b, BodyInertia inertia_a, BodyInertia inertia_b)
+                                          float inverse_mass_a, float inverse_mass_b, BodyInertia inertia_a,
+                                          BodyInertia inertia_b)
 {
     bool pushes_a = (inertia_a.traits & k_trait_movable) != 0u;
     bool pushes_b = (inertia_b.traits & k_trait_movable) != 0u;

@@ -2,9 +2,8 @@
 // What the solver makes of hubs (which those are: colouring.shared.glsl). Needs resolution/manifold_rows.shared.glsl.
 //
 // The constraints in a hub's colour are solved side by side, though they share a body. Each is given a share of its mass
-// and inertia (hub_load.shared.glsl). What they do to their shares is then added up: the hub moves as their weighted
-// mean, and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid
-// Body Simulation", 2012).
+// and inertia (hub_load.shared.glsl). What they do to their shares is then added up: the hub moves as their weighted mean,
+// and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid Body Simulation", 2012).
 
 inline bool is_hub_colour(uint colour) { return colour >= k_first_hub_colour && colour < k_max_colours; }
 

@@ -10,8 +10,8 @@ inline uint part_of_load(float load, float largest, uint edge_count)
     return uint(part);
 }
 
-// The same in the step where all edges of a hub are new: what is below it will carry it. With equal
-// shares for the one step, a table on nine legs moved at 0.3 m/s a few steps later.
+// The same in the step where all edges of a hub are new: what is below it will carry it. With equal shares for the one
+// step, a table on nine legs moved at 0.3 m/s a few steps later.
 inline uint part_by_gravity(vec3 normal, bool hub_is_a, uint edge_count, Parameters p)
 {
     float against = dot3(normal, p.gravity);

@@ -31,8 +31,5 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    BodyInertia inertia = unpack(inertias[body]);
-    bool is_grouped = (inertia.traits & k_trait_grouped) != 0u; // a work group does it
-    bool sleeps = inertia.substeps == 0u;
-    if (!is_grouped && !sleeps) integrate_body(body, args.x);
+    if (is_launched(unpack(inertias[body]))) integrate_body(body, args.x);
 }

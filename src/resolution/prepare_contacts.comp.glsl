@@ -34,7 +34,8 @@ float share_of_contact(Manifold manifold, uint pair, uint colour)
     if (!is_hub_colour(colour)) return 1.0;
     bool of_a = (unpack(inertias[manifold.body_a]).traits & k_trait_hub) != 0u;
     uint hub = of_a ? manifold.body_a : manifold.body_b;
-    return share_of_hub(part_of_load(manifold, load_on(pair, manifold.point_count), hub), body_colours[body_word(hub, k_shared_load)],
+    uint part = part_of_load(manifold, load_on(pair, manifold.point_count), hub);
+    return share_of_hub(part, body_colours[body_word(hub, k_shared_load)],
                         shares_of_hub(body_colours[body_word(hub, k_hub_word)]));
 }
 

@@ -85,10 +85,7 @@ void finish_colour(uint colour, uint substep)
 void integrate_own_bodies(uint substep)
 {
     for (uint body = worker(); body < parameters.body_count; body += worker_count()) {
-        BodyInertia inertia = unpack(inertias[body]);
-        bool is_grouped = (inertia.traits & k_trait_grouped) != 0u; // a work group does it
-        bool sleeps = inertia.substeps == 0u;
-        if (!is_grouped && !sleeps) integrate_body(body, substep);
+        if (is_launched(unpack(inertias[body]))) integrate_body(body, substep);
     }
 }
 

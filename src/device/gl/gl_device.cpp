@@ -19,7 +19,6 @@
 namespace talus::engine {
 namespace {
 
-constexpr std::size_t k_cell_bytes = 16;
 constexpr uint k_max_groups = 65535; // of one dimension, on every driver
 
 /// `bytes` and what is missing to a whole number of parts.
@@ -39,7 +38,7 @@ void dispatch_groups(uint groups) {
 // More than any GPU runs at a time of a kernel that needs all registers.
 constexpr uint k_trial_groups = 4096;
 
-/// TALUS_RESIDENT_GROUPS=n says how many groups may wait for each other, and 0 that none may.
+/// TALUS_RESIDENT_GROUPS=n says how many groups may wait for each other at most, and 0 that none may.
 std::optional<uint> resident_groups_of_environment() {
     const char* value = std::getenv("TALUS_RESIDENT_GROUPS");
     if (value == nullptr) return std::nullopt;
@@ -98,17 +97,15 @@ GlDevice::~GlDevice() {
 }
 
 uint GlDevice::resident_groups(const Kernel& kernel) {
+    const std::optional<uint> most = resident_groups_of_environment();
+    if (!loops_freely() || most == 0u) return 0;
     const auto [entry, is_new] = resident_groups_.try_emplace(kernel.path, 0);
     if (!is_new) return entry->second;
-    // A renderer in software runs one group after the other, and one alone waits for nobody.
-    const std::optional<uint> wanted = resident_groups_of_environment();
-    if (!loops_freely()) return entry->second = std::min(wanted.value_or(0), 1u);
-    if (wanted) return entry->second = *wanted;
     std::array<uint, 2> arrivals{};
     write(BufferId::Arrivals, 0, std::as_bytes(std::span(arrivals)));
     run({.kernel = kernel, .items = k_trial_groups * kernel.items_a_group, .args = {1}});
     read(std::array{ReadRequest{BufferId::Arrivals, sizeof arrivals, arrivals.data()}});
-    return entry->second = arrivals[1];
+    return entry->second = std::min(arrivals[1], most.value_or(k_trial_groups));
 }
 
 void GlDevice::grow(BufferId id, std::size_t bytes) {

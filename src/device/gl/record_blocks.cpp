@@ -8,8 +8,6 @@
 namespace talus::engine {
 namespace {
 
-constexpr std::size_t k_cell_bytes = 16;
-
 /// Calls copy(place in blocks, place among records, bytes) for each cell of the records, the last of which may be cut.
 template <typename Copy> void for_each_cell(std::size_t bytes, std::size_t record_bytes, const Copy& copy) {
     const std::size_t cells = record_bytes / k_cell_bytes;

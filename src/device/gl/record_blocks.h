@@ -12,6 +12,8 @@
 
 namespace talus::engine {
 
+inline constexpr std::size_t k_cell_bytes = 16;
+
 /// See cell_in_block in record_cells.h for the kernels' side; the host and the CPU see records one after the other.
 constexpr bool lies_in_blocks(BufferId id) {
     return id == BufferId::Constraints;
