@@ -150,6 +150,76 @@ TEST_P(Energy, is_never_gained) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Energy, testing::ValuesIn(k_cases),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// ---- heavy on light ----
+
+/// Boxes of 1 t side by side, `layers` of them: side × side in each.
+std::vector<BodyDefinition> boxes_on_ground(int side, int layers) {
+    std::vector<BodyDefinition> bodies{ground()};
+    const auto place = [&](int i) { return 1.02f * (static_cast<float>(i) - 0.5f * static_cast<float>(side - 1)); };
+    for (int i = 0; i < side * side * layers; ++i)
+        bodies.push_back(
+            box_at({place(i % side), 0.5f + static_cast<float>(i / (side * side)), place(i / side % side)}));
+    return bodies;
+}
+
+BodyDefinition weighing(BodyDefinition definition, float mass) {
+    definition.mass = mass;
+    return definition;
+}
+
+/// What is hit by a heavy body must not be left with its momentum, and must not be stiffer in the next step.
+TEST(EnergyOfHeavyBodies, is_not_gained_when_they_fall_on_light_ones) {
+    struct Target {
+        const char* name;
+        int side, layers;
+        float radius; // of the sphere that falls; 0: a box of 1 m
+    };
+    for (const Target& target : {Target{"layer", 5, 1, 2.0f}, Target{"box", 1, 1, 2.0f}, Target{"three", 1, 3, 2.0f},
+                                 Target{"three under a box", 1, 3, 0.0f}}) {
+        for (const float mass : {10e3f, 33e3f, 100e3f}) {
+            for (const float drop : {1.0f, 5.0f, 20.0f}) {
+                for (const std::uint32_t substeps : {8u, 128u}) {
+                    SCOPED_TRACE(testing::Message() << target.name << ", " << mass << " kg from " << drop << " m, "
+                                                    << substeps << " sub-steps");
+                    Settings settings;
+                    settings.substeps = substeps;
+                    World world(settings, options_on(DeviceKind::Cpu));
+                    const float y = static_cast<float>(target.layers) + drop;
+                    const float x = target.side > 1 ? 0.1f : 0.0f;
+                    const auto bodies = [&] {
+                        std::vector<BodyDefinition> all = boxes_on_ground(target.side, target.layers);
+                        all.push_back(weighing(target.radius > 0.0f
+                                                   ? sphere_at({x, y + target.radius, 0.5f * x}, target.radius)
+                                                   : box_at({x, y + 0.5f, 0.5f * x}),
+                                               mass));
+                        return all;
+                    };
+                    expect_no_gain(world, {target.name, true, 180, bodies}, 1);
+                }
+            }
+        }
+    }
+}
+
+TEST(EnergyOfHeavyBodies, is_not_gained_by_a_tilted_table_that_falls) {
+    for (const float angle : {0.1f, 0.3f, 0.6f}) {
+        for (const float drop : {1.0f, 8.0f}) {
+            SCOPED_TRACE(testing::Message() << angle << " rad, " << drop << " m");
+            const auto bodies = [&] {
+                std::vector<BodyDefinition> all = table_on_legs(8, 2);
+                const Quat tilt = turn({0.0f, 0.0f, 1.0f}, angle);
+                for (std::size_t i = 1; i < all.size(); ++i) {
+                    all[i].pose.position = rotated(tilt, all[i].pose.position) + Vec3{0.0f, 1.0f + drop, 0.0f};
+                    all[i].pose.rotation = tilt;
+                }
+                return all;
+            };
+            World world({}, options_on(DeviceKind::Cpu)); // without hubs
+            expect_no_gain(world, {"table", true, 240, bodies}, 1);
+        }
+    }
+}
+
 class EnergyOnDevices : public OnDevice {};
 
 TEST_P(EnergyOnDevices, is_never_gained_by_thrown_boxes) {

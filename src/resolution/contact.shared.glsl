@@ -181,24 +181,30 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
     return target;
 }
 
-// Deep overlap is pushed apart in all sub-steps, and the speed that it has got by that is taken back by the relax pass,
-// up to the impulses of the whole step.
+// Deep overlap is pushed apart in all sub-steps, and the speed that it has got by that is taken back by the relax pass.
+// That is never more than the push speed, and never more than the impulses of the whole step. Without the first limit a
+// light body under a heavy one that has just hit it was left with the heavy one's momentum.
 const float k_fast_push = 0.2f; // m/s; what rests is pushed by a few centimetres a second
 
-inline float least_of_point(float first_separation, float impulse, float total, Softness soft)
+inline float least_of_point(float first_separation, float normal_mass, float impulse, float total, Softness soft,
+                            Parameters p)
 {
     precise float push = -soft.bias_rate * first_separation;
-    precise float least = impulse - total;
+    precise float pulled = normal_mass * min(push, p.contact_push_speed);
+    precise float least = max(impulse - total, -pulled);
     return choose(push > k_fast_push, min(least, 0.0f), 0.0f);
 }
 
-inline vec4 least_relaxed(ManifoldRows rows, vec4 base, ManifoldImpulses impulses, Softness soft)
+inline vec4 least_relaxed(ManifoldRows rows, vec4 base, ManifoldImpulses impulses, Softness soft, Parameters p)
 {
     vec4 first = first_separations(rows, base);
+    vec4 mass = rows.normal_mass;
     vec4 impulse = impulses.normal;
     vec4 total = impulses.total;
-    return vec4(least_of_point(first.x, impulse.x, total.x, soft), least_of_point(first.y, impulse.y, total.y, soft),
-                least_of_point(first.z, impulse.z, total.z, soft), least_of_point(first.w, impulse.w, total.w, soft));
+    return vec4(least_of_point(first.x, mass.x, impulse.x, total.x, soft, p),
+                least_of_point(first.y, mass.y, impulse.y, total.y, soft, p),
+                least_of_point(first.z, mass.z, impulse.z, total.z, soft, p),
+                least_of_point(first.w, mass.w, impulse.w, total.w, soft, p));
 }
 
 // The friction rows: impulses stay inside an ellipsoid, with the force limit as its radius along the tangents and the

@@ -102,8 +102,7 @@ inline uint colour_of_step(uint key, uint its_traits)
     return (its_traits & k_trait_whole_hub) != 0u ? colour | k_whole_hub : colour;
 }
 
-// Impulses of the whole step, and the sub-steps that their load asks for in the next one. The load is a running mean:
-// an impact is no reason for finer sub-steps.
+// Impulses of the whole step, and the sub-steps that their load asks for in the next one.
 inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
                                float inverse_mass_b, Parameters p)
 {
@@ -113,7 +112,7 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 nor
     manifold.tangent_impulse_1 = friction.x;
     manifold.tangent_impulse_2 = friction.y;
     manifold.twist_impulse = friction.z;
-    precise float mean = manifold.weights + k_newest_weight * (weights - manifold.weights);
+    float mean = next_mean_load(manifold.weights, weights);
     uint wanted = wanted_substeps(mean, p);
     bool on_trial = manifold.idle_steps >= k_trial;
     bool idle = on_trial || 2u * wanted <= manifold.substeps;

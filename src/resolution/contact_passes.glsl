@@ -80,7 +80,7 @@ PassTarget target_of_pass(uint pass)
     target.half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
     target.normal = make_normal_target(current_separations(rows, base_separation, traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != k_relax, substep, parameters);
-    if (pass == k_relax) target.normal.lower = least_relaxed(rows, base_separation, impulses, substep.soft);
+    if (pass == k_relax) target.normal.lower = least_relaxed(rows, base_separation, impulses, substep.soft, parameters);
     return target;
 }
 

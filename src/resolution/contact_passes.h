@@ -32,7 +32,7 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     target.normal = make_normal_target(current_separations(state, c, rows), rows, impulses.normal,
                                        pass != ContactPass::Relax, substep, p);
     if (pass == ContactPass::Relax)
-        target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep.soft);
+        target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep.soft, p);
     return target;
 }
 

@@ -22,7 +22,7 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ContactConstraint& 
     target.half_h = choose(against_static && !Mask(relax), 0.5f * substep_length(c.substeps, p), 0.0f);
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
                                        impulses.normal, !relax, substep, p);
-    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep.soft);
+    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep.soft, p);
     return target;
 }
 

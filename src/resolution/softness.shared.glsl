@@ -69,7 +69,6 @@ const float k_substeps_against_buckling = 0.095f;
 // More sub-steps are had at once, fewer only after so many steps in a row in which half would have done: a change of
 // stiffness shakes what stands, which changes the load, and without patience a tower never came to rest.
 const uint k_patience = 64u;
-const float k_newest_weight = 0.125f; // share of the newest step in the mean load
 // What stands where the caller has put it is given the most until its load is known: with few sub-steps a tower would
 // be shaken while the load builds up.
 const uint k_trial = 1000u;      // Manifold::idle_steps counts up from here in a trial
@@ -105,4 +104,20 @@ inline float weights_on(float impulse, float inverse_mass_a, float inverse_mass_
 {
     precise float weights = impulse * max(inverse_mass_a, inverse_mass_b) * p.inverse_weight;
     return min(weights, k_most_weights);
+}
+
+// ---- the mean load ----
+
+// The load is a running mean over the steps. An impact is no load: while a heavy body is stopped by a light one it
+// presses with thousands of weights, and overlaps. With many more sub-steps, and so with much stiffer contacts, in the
+// next step the overlap would throw it back faster than it came. So a step counts as twice the mean and a little at
+// most, and a load that stays is known within a few steps more.
+const float k_newest_weight = 0.125f; // share of the newest step
+const float k_sudden_weights = 8.0f;  // for these 8 sub-steps are plenty
+
+inline float next_mean_load(float mean, float newest)
+{
+    precise float counted = min(newest, 2.0f * mean + k_sudden_weights);
+    precise float next = mean + k_newest_weight * (counted - mean);
+    return next;
 }
