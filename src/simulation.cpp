@@ -278,7 +278,8 @@ StepPlan Simulation::plan_step(const Population& population) const {
     if (!now.may_be_persistent()) return now;
     const uint groups = placement.resolution->resident_groups(solve_persistent);
     const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
-    if (passes > std::uint64_t{k_most_manifolds_each} * groups * solve_persistent.items_a_group) return now;
+    const std::uint64_t most = std::uint64_t{k_most_manifolds_each} * groups * solve_persistent.items_a_group;
+    if (groups == 0 || passes > most) return now;
     now.persistent_groups = groups;
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
     now.substep_capacity = now.most_substeps;
