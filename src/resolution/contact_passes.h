@@ -14,6 +14,21 @@ enum class ContactPass : uint {
     Relax,      ///< without bias
 };
 
+/// The sub-steps of a step and their passes, in order: calls integrate(substep) and over_contacts(pass, substep).
+/// `last`: the number of sub-steps. The kernels' counterpart is solve_substeps.glsl.
+template <typename Integrate, typename OverContacts> void
+for_each_pass(uint last, uint iterations, bool relax, const Integrate& integrate, const OverContacts& over_contacts) {
+    for (uint substep = 0; substep < last; ++substep) {
+        integrate(substep);
+        // Later sub-steps find their warm start body by body (body.shared.glsl).
+        if (substep == 0) over_contacts(ContactPass::WarmStart, 0);
+        for (uint i = 0; i < iterations; ++i)
+            over_contacts(i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
+    }
+    integrate(last); // the movement of the last one
+    if (relax) over_contacts(ContactPass::Relax, 0);
+}
+
 inline vec4 current_separations(const CpuState& state, const ContactConstraint& c, const ManifoldRows& rows) {
     return current_separations(rows, c.base_separation, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
 }

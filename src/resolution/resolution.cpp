@@ -58,7 +58,7 @@ void prepare(Device& device, const StepPlan& plan) {
 }
 
 /// One pass over all manifolds that have this sub-step, colour by colour; those of hubs and the overflow set come last.
-static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass pass, uint substep = 0) {
+static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass pass, uint substep) {
     const auto launch = [&](const Kernel& kernel, uint colour, uint slot) {
         device.run({.kernel = kernel, .slot = slot, .args = {colour, static_cast<uint>(pass), substep}});
     };
@@ -82,15 +82,10 @@ void solve(Device& device, const StepPlan& plan) {
         device.run({.kernel = solve_persistent, .items = plan.persistent_groups * solve_persistent.items_a_group});
         return;
     }
-    for (uint substep = 0; substep < plan.substep_capacity; ++substep) {
-        device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {substep}});
-        // Later sub-steps find their warm start body by body (body.shared.glsl).
-        if (substep == 0) pass_over_contacts(device, plan, ContactPass::WarmStart);
-        for (uint i = 0; i < plan.iterations; ++i)
-            pass_over_contacts(device, plan, i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
-    }
-    device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {plan.substep_capacity}});
-    if (plan.relax) pass_over_contacts(device, plan, ContactPass::Relax);
+    for_each_pass(
+        plan.substep_capacity, plan.iterations, plan.relax,
+        [&](uint substep) { device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {substep}}); },
+        [&](ContactPass pass, uint substep) { pass_over_contacts(device, plan, pass, substep); });
 }
 
 void store_impulses(Device& device) {

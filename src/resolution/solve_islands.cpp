@@ -43,7 +43,7 @@ void IslandWork::add_constraint(const CpuState& state, uint constraint) {
 
 void solve_together(CpuState& state, const IslandWork& islands) {
     const Parameters& p = state.parameters;
-    const auto over_contacts = [&](ContactPass pass, uint substep = 0) {
+    const auto over_contacts = [&](ContactPass pass, uint substep) {
         for (uint colour = 0; colour < k_overflow_colour; ++colour) {
             const std::vector<uint>& indices = islands.colours[colour];
             pass_over_colour(state, pass, substep, indices.data(), static_cast<uint>(indices.size()));
@@ -54,14 +54,12 @@ void solve_together(CpuState& state, const IslandWork& islands) {
     uint last = 0;
     for (const uint body : islands.bodies)
         last = max(last, state.inertias[body].substeps);
-    for (uint substep = 0; substep <= last; ++substep) {
-        pass_over_bodies(state, substep, islands.bodies.data(), static_cast<uint>(islands.bodies.size()));
-        if (substep == last) break;
-        if (substep == 0) over_contacts(ContactPass::WarmStart);
-        for (uint i = 0; i < p.iterations; ++i)
-            over_contacts(i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
-    }
-    if (p.relax == 1) over_contacts(ContactPass::Relax);
+    for_each_pass(
+        last, p.iterations, p.relax == 1,
+        [&](uint substep) {
+            pass_over_bodies(state, substep, islands.bodies.data(), static_cast<uint>(islands.bodies.size()));
+        },
+        over_contacts);
 }
 
 void solve_islands_on_cpu(CpuState& state, const Launch&) {

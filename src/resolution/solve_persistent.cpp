@@ -18,14 +18,10 @@ static void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
         }
     };
     const uint last = max(state.counters[k_counter_launched_substeps], p.least_substeps);
-    for (uint substep = 0; substep <= last; ++substep) {
+    const auto integrate = [&](uint substep) {
         integrate_bodies.twin(state, {.kernel = integrate_bodies, .args = {substep}});
-        if (substep == last) break;
-        if (substep == 0) over_contacts(ContactPass::WarmStart, 0);
-        for (uint i = 0; i < p.iterations; ++i)
-            over_contacts(i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
-    }
-    if (p.relax == 1) over_contacts(ContactPass::Relax, 0);
+    };
+    for_each_pass(last, p.iterations, p.relax == 1, integrate, over_contacts);
 }
 
 const Kernel solve_persistent{"resolution/solve_persistent", solve_persistent_on_cpu, 384};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All sub-steps of some bodies and the manifolds between them, in one kernel: its invocations are workers that share both
-// among themselves, and wait for each other after every colour. The passes and their order are those of solve() in
-// resolution.cpp, and so are the bits.
+// among themselves, and wait for each other after every colour. The passes and their order are those of for_each_pass in
+// contact_passes.h, and so are the bits.
 // A worker keeps the manifold that it has in hand from pass to pass. Where it has several it takes the next one before it
 // waits for the others, so that nobody waits for memory. Each step of the work stands here once, as compilers put the
 // code of a function into every place that calls it.

@@ -85,8 +85,8 @@ const uint k_fit_colours = 2u;
 const uint k_fit_substeps = 4u;
 const uint k_fit_hubs = 8u;
 const uint k_fit_search = 16u; // no room is missing: a driver ended the search for pairs
-const uint k_fit_groups = 64u; // groups that wait for each other were not run side by side: the step went wrong
 const uint k_fit_reports = 32u; // the step itself is done; those behind it wait until its reports have been fetched
+const uint k_fit_groups = 64u; // groups that wait for each other were not run side by side: the step went wrong
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.

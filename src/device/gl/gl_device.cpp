@@ -74,7 +74,7 @@ GlDevice::Objects::Objects(bool profile, bool program_cache)
 }
 
 GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile, bool program_cache)
-    : context_(std::move(context)) {
+    : context_(std::move(context)), most_resident_groups_(resident_groups_of_environment()) {
     context_->make_current();
     GLint64 bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
@@ -97,15 +97,14 @@ GlDevice::~GlDevice() {
 }
 
 uint GlDevice::resident_groups(const Kernel& kernel) {
-    const std::optional<uint> most = resident_groups_of_environment();
-    if (!loops_freely() || most == 0u) return 0;
-    const auto [entry, is_new] = resident_groups_.try_emplace(kernel.path, 0);
-    if (!is_new) return entry->second;
+    if (!loops_freely() || most_resident_groups_ == 0u) return 0;
+    const auto found = resident_groups_.find(&kernel);
+    if (found != resident_groups_.end()) return found->second;
     std::array<uint, 2> arrivals{};
     write(BufferId::Arrivals, 0, std::as_bytes(std::span(arrivals)));
     run({.kernel = kernel, .items = k_trial_groups * kernel.items_a_group, .args = {1}});
     read(std::array{ReadRequest{BufferId::Arrivals, sizeof arrivals, arrivals.data()}});
-    return entry->second = std::min(arrivals[1], most.value_or(k_trial_groups));
+    return resident_groups_[&kernel] = std::min(arrivals[1], most_resident_groups_.value_or(k_trial_groups));
 }
 
 void GlDevice::grow(BufferId id, std::size_t bytes) {

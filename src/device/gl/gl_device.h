@@ -75,7 +75,8 @@ private:
     std::unique_ptr<Objects> objects_;
     GlBindings bindings_;
     std::optional<Parameters> parameters_;
-    std::unordered_map<std::string, uint> resident_groups_; // a kernel's path, of those that were asked for
+    std::optional<uint> most_resident_groups_;                // what the environment says
+    std::unordered_map<const Kernel*, uint> resident_groups_; // of kernels that were asked for
     std::size_t max_block_bytes_ = 0;
     bool kernels_pending_ = false; // ran since the last order_after_kernels
     bool in_stage_ = false;
