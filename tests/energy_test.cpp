@@ -174,10 +174,11 @@ TEST(EnergyOfHeavyBodies, is_not_gained_when_they_fall_on_light_ones) {
         int side, layers;
         float radius; // of the sphere that falls; 0: a box of 1 m
     };
-    for (const Target& target : {Target{"layer", 5, 1, 2.0f}, Target{"box", 1, 1, 2.0f}, Target{"three", 1, 3, 2.0f},
-                                 Target{"three under a box", 1, 3, 0.0f}}) {
+    for (const Target& target :
+         {Target{"layer", 5, 1, 2.0f}, Target{"box", 1, 1, 2.0f}, Target{"three", 1, 3, 2.0f},
+          Target{"three under a box", 1, 3, 0.0f}, Target{"six", 1, 6, 2.0f}, Target{"ten under a box", 1, 10, 0.0f}}) {
         for (const float mass : {10e3f, 33e3f, 100e3f}) {
-            for (const float drop : {1.0f, 5.0f, 20.0f}) {
+            for (const float drop : {0.1f, 1.0f, 5.0f, 20.0f}) {
                 for (const std::uint32_t substeps : {8u, 128u}) {
                     SCOPED_TRACE(testing::Message() << target.name << ", " << mass << " kg from " << drop << " m, "
                                                     << substeps << " sub-steps");

@@ -5,6 +5,7 @@
 
 #include "tests/bodies.h"
 #include "tests/devices.h"
+#include "tests/environment.h"
 
 namespace talus::tests {
 namespace {
@@ -60,6 +61,7 @@ TEST_P(Growth, of_bodies_and_pairs_gives_the_same_bits_with_the_tree) {
 
 TEST_P(Growth, of_colours_gives_the_same_bits_in_a_large_world) {
     // More bodies in an island than one work group solves, so that each colour has a launch of its own.
+    const Variable no_persistent_launch("TALUS_RESIDENT_GROUPS", "0");
     World tiny = world_with({1, 16'384, 1}), ample = world_with({2'048, 16'384, 64});
     for (World* world : {&tiny, &ample}) {
         world->add(bodies_of("pyramid:base=46"));

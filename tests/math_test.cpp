@@ -224,16 +224,18 @@ TEST(Math, a_soft_contact_never_overshoots) {
                 SCOPED_TRACE(testing::Message() << hertz << " Hz, damping " << damping << ", sub-steps " << substeps);
                 const float h = substep_length(substeps, p);
                 for (const bool against_static : {false, true}) {
-                    const Softness s = make_substep(substeps, against_static, p).soft;
-                    // At most the whole overlap is removed in a sub-step, and the row is between absent and rigid.
-                    EXPECT_GE(s.bias_rate * h, 0.0f);
-                    EXPECT_LE(s.bias_rate * h, 1.000001f);
-                    EXPECT_NEAR(s.mass_scale + s.impulse_scale, 1.0f, 1e-6f);
-                    EXPECT_GE(s.mass_scale, 0.0f);
-                    EXPECT_LE(s.mass_scale, 1.0f);
+                    for (const float load_speed : {0.0f, 300.0f, 1e30f}) {
+                        const Softness s = make_substep(substeps, against_static, load_speed, p).soft;
+                        // At most the whole overlap is removed in a sub-step, and the row is between absent and rigid.
+                        EXPECT_GE(s.bias_rate * h, 0.0f);
+                        EXPECT_LE(s.bias_rate * h, 1.000001f);
+                        EXPECT_NEAR(s.mass_scale + s.impulse_scale, 1.0f, 1e-6f);
+                        EXPECT_GE(s.mass_scale, 0.0f);
+                        EXPECT_LE(s.mass_scale, 1.0f);
+                    }
                 }
-                const Softness moving = make_substep(substeps, false, p).soft;
-                const Softness against_static = make_substep(substeps, true, p).soft;
+                const Softness moving = make_substep(substeps, false, 0.0f, p).soft;
+                const Softness against_static = make_substep(substeps, true, 0.0f, p).soft;
                 EXPECT_GE(against_static.mass_scale, moving.mass_scale);
                 EXPECT_GE(against_static.bias_rate, moving.bias_rate);
             }
@@ -245,27 +247,45 @@ TEST(Math, softness_has_the_limits_of_its_spring) {
     Settings settings;
     settings.contact_hertz = 1e-3f;
     settings.contact_damping_ratio = 1.0f;
-    Softness soft = make_substep(4, false, parameters_for(settings)).soft;
+    Softness soft = make_substep(4, false, 0.0f, parameters_for(settings)).soft;
     EXPECT_LT(soft.mass_scale, 1e-3f) << "a spring of almost no stiffness";
     EXPECT_NEAR(soft.bias_rate, std::numbers::pi_v<float> * 1e-3f, 1e-6f) << "w / 2z where h w is small";
 
     // Stiffer than an eighth of the sub-step rate is not possible.
     settings.contact_hertz = 4.0f * 60.0f / 8.0f;
-    soft = make_substep(4, false, parameters_for(settings)).soft;
+    soft = make_substep(4, false, 0.0f, parameters_for(settings)).soft;
     settings.contact_hertz = 1e5f;
-    EXPECT_FLOAT_EQ(make_substep(4, false, parameters_for(settings)).soft.bias_rate, soft.bias_rate);
-    EXPECT_GT(make_substep(5, false, parameters_for(settings)).soft.bias_rate, soft.bias_rate);
+    EXPECT_FLOAT_EQ(make_substep(4, false, 0.0f, parameters_for(settings)).soft.bias_rate, soft.bias_rate);
+    EXPECT_GT(make_substep(5, false, 0.0f, parameters_for(settings)).soft.bias_rate, soft.bias_rate);
 
     settings.stabilisation = Stabilisation::Baumgarte; // equation 3.17: beta / dt, and a rigid row
     settings.baumgarte = 0.3f;
     const Parameters p = parameters_for(settings);
-    soft = make_substep(1, false, p).soft;
+    soft = make_substep(1, false, 0.0f, p).soft;
     EXPECT_FLOAT_EQ(substep_length(1, p), settings.dt);
     EXPECT_FLOAT_EQ(soft.bias_rate, 0.3f / settings.dt);
     EXPECT_EQ(soft.mass_scale, 1.0f);
     EXPECT_EQ(soft.impulse_scale, 0.0f);
     EXPECT_EQ(p.relax, 0u);
     EXPECT_EQ(p.most_substeps, 1u);
+}
+
+TEST(Math, a_heavy_load_is_damped_in_proportion_and_pushed_apart_more_slowly) {
+    Settings settings;
+    const auto of_damping = [&](float ratio, float load_speed) {
+        settings.contact_damping_ratio = ratio;
+        return make_substep(8, false, load_speed, parameters_for(settings));
+    };
+    const Substep light = of_damping(5.0f, 3.0f), heavy = of_damping(5.0f, 300.0f);
+    EXPECT_EQ(light.soft.bias_rate, of_damping(5.0f, 0.0f).soft.bias_rate) << "up to 3 m/s nothing is heavy";
+    EXPECT_EQ(light.push_speed, settings.contact_push_speed);
+    // A hundred times the mass on the same spring has a tenth of the damping ratio: ten times as much is asked for.
+    EXPECT_NEAR(heavy.soft.bias_rate / of_damping(50.0f, 0.0f).soft.bias_rate, 1.0f, 1e-5f);
+    EXPECT_NEAR(of_damping(5.0f, 6.0f).push_speed, 0.5f * settings.contact_push_speed, 1e-5f);
+    EXPECT_NEAR(heavy.push_speed, settings.contact_push_speed / 6.0f, 1e-5f);
+
+    settings.stabilisation = Stabilisation::Baumgarte;
+    EXPECT_EQ(of_damping(5.0f, 300.0f).push_speed, settings.contact_push_speed);
 }
 
 TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {

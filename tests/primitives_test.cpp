@@ -28,8 +28,15 @@ struct Candidate {
     std::string why_not;
 };
 
+std::map<DeviceKind, Candidate> candidates;
+
+/// Some drivers are gone before the program's variables are.
+class Candidates : public testing::Environment {
+    void TearDown() override { candidates.clear(); }
+};
+[[maybe_unused]] const testing::Environment* const environment = testing::AddGlobalTestEnvironment(new Candidates);
+
 Candidate& candidate(DeviceKind kind) {
-    static std::map<DeviceKind, Candidate> candidates;
     const auto [entry, is_new] = candidates.try_emplace(kind);
     if (is_new) {
         try {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Compiled programs on disk: found again, and never trusted. A file counts as used where it stays as it is, and as
 // replaced where it does not.
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +18,7 @@
 #include "device/gl/gl_program.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
+#include "tests/environment.h"
 
 namespace talus::tests {
 namespace {
@@ -27,27 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using engine::GlProgram;
 using engine::ProgramCache;
-
-/// An environment variable as the test wants it, and afterwards as it was.
-class Variable {
-public:
-    Variable(const char* variable, const std::string& value) : name(variable) {
-        if (const char* set = std::getenv(name)) before = set;
-        setenv(name, value.c_str(), 1);
-    }
-    ~Variable() {
-        if (before)
-            setenv(name, before->c_str(), 1);
-        else
-            unsetenv(name);
-    }
-    Variable(const Variable&) = delete;
-    Variable& operator=(const Variable&) = delete;
-
-private:
-    const char* name;
-    std::optional<std::string> before;
-};
 
 std::string bytes_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);

@@ -17,9 +17,12 @@
 #include "render/overlay_lines.h"
 #include "render/renderer.h"
 #include "render/video_writer.h"
+#include "tests/environment.h"
 
 namespace talus::render {
 namespace {
+
+using tests::Variable;
 
 constexpr std::uint32_t k_width = 160, k_height = 120;
 
@@ -107,16 +110,6 @@ protected:
     }
 
     std::filesystem::path folder;
-};
-
-/// Sets PATH while it lives.
-class PathVariable {
-public:
-    explicit PathVariable(const std::string& path) : before(std::getenv("PATH")) { setenv("PATH", path.c_str(), 1); }
-    ~PathVariable() { setenv("PATH", before.c_str(), 1); }
-
-private:
-    std::string before;
 };
 
 Picture gradient(std::uint32_t width, std::uint32_t height, int shift = 0) {
@@ -431,7 +424,7 @@ TEST_F(Files, a_video_that_cannot_be_written_is_refused_in_words) {
     EXPECT_TRUE(contains(error_of([&] { VideoWriter(folder / "a.mp4", 64, 48, 0.0); }), "frames a second"));
     EXPECT_TRUE(contains(error_of([&] { VideoWriter(folder / "none" / "a.mp4", 64, 48, 30.0); }), "does not exist"));
     {
-        const PathVariable empty(folder.string());
+        const Variable empty("PATH", folder.string());
         EXPECT_TRUE(contains(error_of([&] { VideoWriter(folder / "a.mp4", 64, 48, 30.0); }), "apt install ffmpeg"));
     }
     EXPECT_EQ(file_count(), 0u);
@@ -442,7 +435,7 @@ TEST_F(Files, an_ffmpeg_that_gives_up_is_quoted) {
     const std::filesystem::path program = folder / "bin" / "ffmpeg";
     std::ofstream(program) << "#!/bin/sh\necho 'out of tape' >&2\nexit 3\n";
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-    const PathVariable only(folder / "bin");
+    const Variable only("PATH", folder / "bin");
     VideoWriter video(folder / "a.mp4", 640, 480, 30.0);
     const std::string message = error_of([&] {
         for (int i = 0; i < 100; ++i)

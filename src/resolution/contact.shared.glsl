@@ -132,12 +132,13 @@ inline float closing_speed(float separation, float inv_h)
 }
 
 // One point's share: x the mass, y the offset. The bias velocity b is that of equation 3.7; see solver.md.
-inline vec2 point_target(float separation, float normal_mass, float impulse, bool use_bias, Softness soft, float inv_h,
+inline vec2 point_target(float separation, float normal_mass, float impulse, bool use_bias, Substep substep,
                          Parameters p)
 {
     bool biased = separation <= 0.0f && use_bias;
-    float gap = closing_speed(separation, inv_h);
-    precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -p.contact_push_speed);
+    Softness soft = substep.soft;
+    float gap = closing_speed(separation, substep.inv_h);
+    precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -substep.push_speed);
     float bias = choose(separation > 0.0f, gap, choose(use_bias, push, 0.0f));
     precise float mass = normal_mass * choose(biased, soft.mass_scale, 1.0f);
     precise float offset = (impulse - choose(biased, soft.impulse_scale, 0.0f) * impulse) - mass * bias;
@@ -164,12 +165,11 @@ inline float hit_speed(float separation, float normal_mass, float restitution, f
 inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 impulse, bool use_bias,
                                        Substep substep, Parameters p)
 {
-    Softness soft = substep.soft;
     float inv_h = substep.inv_h;
-    vec2 x = point_target(separation.x, rows.normal_mass.x, impulse.x, use_bias, soft, inv_h, p);
-    vec2 y = point_target(separation.y, rows.normal_mass.y, impulse.y, use_bias, soft, inv_h, p);
-    vec2 z = point_target(separation.z, rows.normal_mass.z, impulse.z, use_bias, soft, inv_h, p);
-    vec2 w = point_target(separation.w, rows.normal_mass.w, impulse.w, use_bias, soft, inv_h, p);
+    vec2 x = point_target(separation.x, rows.normal_mass.x, impulse.x, use_bias, substep, p);
+    vec2 y = point_target(separation.y, rows.normal_mass.y, impulse.y, use_bias, substep, p);
+    vec2 z = point_target(separation.z, rows.normal_mass.z, impulse.z, use_bias, substep, p);
+    vec2 w = point_target(separation.w, rows.normal_mass.w, impulse.w, use_bias, substep, p);
     NormalTarget target;
     target.mass = vec4(x.x, y.x, z.x, w.x);
     target.offset = vec4(x.y, y.y, z.y, w.y);
@@ -186,25 +186,24 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
 // light body under a heavy one that has just hit it was left with the heavy one's momentum.
 const float k_fast_push = 0.2f; // m/s; what rests is pushed by a few centimetres a second
 
-inline float least_of_point(float first_separation, float normal_mass, float impulse, float total, Softness soft,
-                            Parameters p)
+inline float least_of_point(float first_separation, float normal_mass, float impulse, float total, Substep substep)
 {
-    precise float push = -soft.bias_rate * first_separation;
-    precise float pulled = normal_mass * min(push, p.contact_push_speed);
+    precise float push = -substep.soft.bias_rate * first_separation;
+    precise float pulled = normal_mass * min(push, substep.push_speed);
     precise float least = max(impulse - total, -pulled);
     return choose(push > k_fast_push, min(least, 0.0f), 0.0f);
 }
 
-inline vec4 least_relaxed(ManifoldRows rows, vec4 base, ManifoldImpulses impulses, Softness soft, Parameters p)
+inline vec4 least_relaxed(ManifoldRows rows, vec4 base, ManifoldImpulses impulses, Substep substep)
 {
     vec4 first = first_separations(rows, base);
     vec4 mass = rows.normal_mass;
     vec4 impulse = impulses.normal;
     vec4 total = impulses.total;
-    return vec4(least_of_point(first.x, mass.x, impulse.x, total.x, soft, p),
-                least_of_point(first.y, mass.y, impulse.y, total.y, soft, p),
-                least_of_point(first.z, mass.z, impulse.z, total.z, soft, p),
-                least_of_point(first.w, mass.w, impulse.w, total.w, soft, p));
+    return vec4(least_of_point(first.x, mass.x, impulse.x, total.x, substep),
+                least_of_point(first.y, mass.y, impulse.y, total.y, substep),
+                least_of_point(first.z, mass.z, impulse.z, total.z, substep),
+                least_of_point(first.w, mass.w, impulse.w, total.w, substep));
 }
 
 // The friction rows: impulses stay inside an ellipsoid, with the force limit as its radius along the tangents and the

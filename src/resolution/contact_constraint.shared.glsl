@@ -43,7 +43,7 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.friction_impulse = friction_impulse;
     c.hub_share = hub_share;
     c.moment = none;
-    c.reserved_2 = 0.0f;
+    c.load_speed = 0.0f;
     c.normal_impulse = no_points;
     c.total_impulse = no_points;
     c.hit_impulse = no_points;
@@ -81,6 +81,8 @@ inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint poi
     c.base_separation[i] = base;
     c.normal_mass[i] = point_mass(r, x, y);
     c.normal_impulse[i] = impulse;
+    precise float load_speed = c.load_speed + point.normal_impulse * c.inverse_masses;
+    c.load_speed = load_speed;
     return c;
 }
 

@@ -34,6 +34,7 @@ uint slot_b;
 uint traits;
 uint substeps;
 float hub_share;
+float load_speed;
 vec3 gap_at_start;
 vec4 base_separation;
 ManifoldRows rows;
@@ -51,6 +52,7 @@ void take_constraint(uint index)
     traits = c.traits;
     substeps = c.substeps;
     hub_share = c.hub_share;
+    load_speed = c.load_speed;
     gap_at_start = c.gap;
     base_separation = c.base_separation;
     rows = make_rows(c, inertia_a, inertia_b);
@@ -61,7 +63,7 @@ void take_constraint(uint index)
 void put_back_impulses(uint index)
 {
     cell_in_block(constraints, index, 11u).xyz = floatBitsToUint(impulses.friction); // beside hub_share
-    cell_in_block(constraints, index, 12u) = uvec4(floatBitsToUint(impulses.moment), 0u);
+    cell_in_block(constraints, index, 12u) = uvec4(floatBitsToUint(impulses.moment), floatBitsToUint(load_speed));
     cell_in_block(constraints, index, 13u) = floatBitsToUint(impulses.normal);
     cell_in_block(constraints, index, 14u) = floatBitsToUint(impulses.total);
 }
@@ -70,7 +72,7 @@ PassTarget target_of_pass(uint pass)
 {
     BodyDelta delta_a = load_delta(body_a);
     BodyDelta delta_b = load_delta(body_b);
-    Substep substep = make_substep(substeps, is_against_static(traits), parameters);
+    Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
     bool moves = pass != k_relax && is_against_static(traits);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
@@ -80,7 +82,7 @@ PassTarget target_of_pass(uint pass)
     target.half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
     target.normal = make_normal_target(current_separations(rows, base_separation, traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != k_relax, substep, parameters);
-    if (pass == k_relax) target.normal.lower = least_relaxed(rows, base_separation, impulses, substep.soft, parameters);
+    if (pass == k_relax) target.normal.lower = least_relaxed(rows, base_separation, impulses, substep);
     return target;
 }
 
@@ -108,7 +110,7 @@ ManifoldState pass_over_hit(uint index, float old_share)
     BodyDelta delta_a = load_delta(body_a);
     BodyDelta delta_b = load_delta(body_b);
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
-    Substep substep = make_substep(substeps, is_against_static(traits), parameters);
+    Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
     vec4 closing = closing_speeds(separations, substep.inv_h);
     ManifoldState before = begin_pass();

@@ -36,7 +36,7 @@ inline vec4 current_separations(const CpuState& state, const ContactConstraint& 
 inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const ContactConstraint& c,
                                  const ManifoldRows& rows, const ManifoldImpulses& impulses) {
     const Parameters& p = state.parameters;
-    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), p);
+    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), c.load_speed, p);
     const bool moves = pass != ContactPass::Relax && is_against_static(c.traits);
     PassTarget target{};
     target.friction = make_friction_target(rows, impulses.normal);
@@ -47,14 +47,14 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     target.normal = make_normal_target(current_separations(state, c, rows), rows, impulses.normal,
                                        pass != ContactPass::Relax, substep, p);
     if (pass == ContactPass::Relax)
-        target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep.soft, p);
+        target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
     return target;
 }
 
 /// Instead of the pass that has found the hit, whose result was not put back.
 inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before, ContactConstraint& c,
                                    const ManifoldRows& rows, const PassTarget& target) {
-    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), state.parameters);
+    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), c.load_speed, state.parameters);
     const vec4 closing = closing_speeds(current_separations(state, c, rows), substep.inv_h);
     const Hit hit = solve_hit(before.velocities, rows, target.slip, closing, substep.inv_h, state.parameters);
     if (!is_finite_pair(hit.velocities)) return before;

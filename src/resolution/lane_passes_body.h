@@ -13,7 +13,7 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ContactConstraint& 
                                      const BodyDelta& delta_b, const Parameters& p) {
     const bool relax = pass == ContactPass::Relax;
     const Mask against_static = is_against_static(c.traits);
-    const Substep substep = make_substep(c.substeps, against_static, p);
+    const Substep substep = make_substep(c.substeps, against_static, c.load_speed, p);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
@@ -22,7 +22,7 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ContactConstraint& 
     target.half_h = choose(against_static && !Mask(relax), 0.5f * substep_length(c.substeps, p), 0.0f);
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
                                        impulses.normal, !relax, substep, p);
-    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep.soft, p);
+    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
     return target;
 }
 
@@ -127,7 +127,7 @@ TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places,
         scatter(state.constraints.data, places, cell, lanes, {x, y, z, w});
     };
     put(11, is.friction.x, is.friction.y, is.friction.z, was.hub_share);
-    put(12, is.moment.x, is.moment.y, is.moment.z, was.reserved_2);
+    put(12, is.moment.x, is.moment.y, is.moment.z, was.load_speed);
     put(13, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
     put(14, is.total.x, is.total.y, is.total.z, is.total.w);
 }

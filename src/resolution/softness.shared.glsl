@@ -27,8 +27,21 @@ inline Softness soft_row(float w, float z, float h)
 struct Substep {
     float inv_h; // 1/s
     Softness soft;
+    float push_speed; // m/s, of what overlaps, at most
 };
 
+// How many times as heavy as the two bodies is what they carry or stop, roughly: the speed that the impulses of the last
+// step give to both, over one that a light load does not reach. solver.md, Heavy on light.
+const float k_per_light_load = 0.333333343f; // s/m: over 3 m/s
+
+inline float heaviness(float load_speed)
+{
+    precise float ratio = load_speed * k_per_light_load;
+    return clamp_to(ratio, 1.0f, 1.0e6f);
+}
+
+// What is heavy is pushed apart more slowly: down to this share of the push speed, as more than one contact may push it.
+const float k_least_push_share = 0.166666672f; // a sixth
 
 inline float substep_length(uint substeps, Parameters p)
 {
@@ -38,8 +51,9 @@ inline float substep_length(uint substeps, Parameters p)
 
 // A contact's frequency is an eighth of the sub-step rate, the stiffest that does not ring, and at most
 // contact_frequency (rad/s); twice that against a body that cannot be pushed. Baumgarte's rows are rigid, with the
-// bias rate of equation 3.17.
-inline Substep make_substep(uint substeps, bool against_static, Parameters p)
+// bias rate of equation 3.17. The damping ratio is meant for the mass that swings on the contact, so that it grows with
+// the root of that. `load_speed`: the constraint's.
+inline Substep make_substep(uint substeps, bool against_static, float load_speed, Parameters p)
 {
     Substep s;
     float h = substep_length(substeps, p);
@@ -50,11 +64,16 @@ inline Substep make_substep(uint substeps, bool against_static, Parameters p)
         s.soft.bias_rate = rate;
         s.soft.mass_scale = 1.0f;
         s.soft.impulse_scale = 0.0f;
+        s.push_speed = p.contact_push_speed;
         return s;
     }
     precise float eighth = 0.785398163f * inv_h; // 2 pi / 8
     precise float w = min(eighth, p.contact_frequency) * choose(against_static, 2.0f, 1.0f);
-    s.soft = soft_row(w, p.contact_damping_ratio, h);
+    float heavy = heaviness(load_speed);
+    precise float damping_ratio = p.contact_damping_ratio * square_root(heavy);
+    s.soft = soft_row(w, damping_ratio, h);
+    precise float push_speed = p.contact_push_speed * max(reciprocal(heavy), k_least_push_share);
+    s.push_speed = push_speed;
     return s;
 }
 

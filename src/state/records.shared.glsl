@@ -155,7 +155,7 @@ struct ContactConstraint {
     vec3 friction_impulse; // N s, N s, N m s, accumulated
     float hub_share;       // of a hub's mass, in the colours for hubs
     vec3 moment; // N m s: of the accumulated impulses, for the way that the bodies have come (contact.shared.glsl)
-    float reserved_2;
+    float load_speed; // m/s: what the normal impulses of the last step do to the relative velocity
     vec4 normal_impulse; // N s, accumulated
     vec4 total_impulse;  // N s, the sum over all sub-steps
     vec4 hit_impulse;    // N s, the sum of the step's hits
