@@ -46,8 +46,7 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     target.half_h = moves ? 0.5f * substep_length(c.substeps, p) : 0.0f;
     target.normal = make_normal_target(current_separations(state, c, rows), rows, impulses.normal,
                                        pass != ContactPass::Relax, substep, p);
-    if (pass == ContactPass::Relax)
-        target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
+    if (pass == ContactPass::Relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
     return target;
 }
 
