@@ -122,6 +122,7 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     cpu.set_parameters(parameters);
     gpu->set_parameters(parameters);
 
+    simulation.search_anew();
     ParityReport report;
     Content before = content_of(cpu);
     give_content(*gpu, before);

@@ -10,20 +10,20 @@
 
 namespace talus::engine {
 
-static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 10,
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 12,
               "another buffer survives the step: snapshots have to hold it too");
 
 std::size_t SavedState::bytes() const {
     std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
                       impulses.size() * sizeof(float) + contact_states.size() * sizeof(uint) +
-                      rests.size() * sizeof(BodyRest);
+                      rests.size() * sizeof(BodyRest) + aabbs.size() * sizeof(Aabb);
     BodyTable::visit_lists(table, [&](const auto& list) { sum += list.size() * sizeof list[0]; });
     return sum;
 }
 
 SavedState save_state(Simulation& simulation, const BodyTable& table, const Settings& settings) {
     ContactRecords contacts = read_contacts(simulation);
-    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}, {}};
+    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}, {}, {}};
     if (simulation.watches_contacts()) {
         saved.contact_states.resize(contacts.manifolds.size());
         simulation.state_device().read(std::array{ReadRequest{
@@ -36,6 +36,9 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
         device.read(std::array{ReadRequest{BufferId::Rests, bytes, saved.rests.data()}});
     }
     simulation.state_device().read(std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters}});
+    saved.aabbs.resize(saved.counters[k_counter_searched_slots]);
+    simulation.detection_device().read(
+        std::array{ReadRequest{BufferId::Aabbs, saved.aabbs.size() * sizeof(Aabb), saved.aabbs.data()}});
     // The table may have given up slots since the last step.
     saved.counters[k_counter_body_count] = std::min(saved.counters[k_counter_body_count], table.slot_count());
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
@@ -52,7 +55,7 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
 void Simulation::restore(const SavedState& saved) {
     settle();
     const auto pair_count = static_cast<uint>(saved.manifolds.size());
-    reserve_bodies(saved.table.slot_count());
+    reserve_bodies(std::max(saved.table.slot_count(), static_cast<uint>(saved.aabbs.size())));
     reserve_pairs(pair_count);
     if (!saved.rests.empty()) grow_everywhere(BufferId::Rests, body_capacity);
 
@@ -83,6 +86,7 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::Constraints, constraints);
     write_all(BufferId::Counters, saved.counters);
     write_all(BufferId::Rests, saved.rests);
+    write_all(BufferId::Aabbs, saved.aabbs);
     if (watches_contacts()) {
         std::vector<uint> states = saved.contact_states;
         states.resize(pair_count, k_contact_apart);
@@ -94,6 +98,8 @@ void Simulation::restore(const SavedState& saved) {
     finished_count = saved.report.step;
     newest_report = saved.report;
     solved_count = static_cast<uint>(constraints.size());
+    still_steps = 0;
+    settings.broad_phase = saved.settings.broad_phase; // so that no search is due which was none before
     newest_report.growths = growths;
     newest_has_poses = false;
 }

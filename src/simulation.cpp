@@ -30,6 +30,12 @@ constexpr uint k_most_substeps_of_large = 32;
 // Manifolds and iterations an invocation of the persistent launch: with more, launches for each colour are long enough
 // to be worth it, and all in one might be too long for a watchdog.
 constexpr uint k_most_manifolds_each = 64;
+// After so many steps in a row that did not have to search for pairs the next ones get no launches for it. Each time
+// that one of them has to search after all, and is done again, twice as many are asked for, up to the most; after so
+// many that went well the first number holds again.
+constexpr uint k_first_patience = 8;
+constexpr uint k_most_patience = 1024;
+constexpr uint k_steps_of_trust = 512;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
@@ -70,6 +76,14 @@ std::string what_did_not_fit(std::span<const uint> counters) {
     add(k_fit_hubs, "contacts of hubs", counters[k_counter_hub_manifolds]);
     add(k_fit_reports, "contact events", counters[k_counter_report_count]);
     return "buffers and launches grow: a step had " + what;
+}
+
+/// Bodies that the caller has moved are likely to have left their boxes.
+bool moves_bodies(const BodyChanges& changes) {
+    return std::ranges::any_of(changes, [](const RecordChanges& change) {
+        return change.buffer == BufferId::Poses || change.buffer == BufferId::Velocities ||
+               change.buffer == BufferId::Shapes;
+    });
 }
 
 uint with_headroom(uint demand) {
@@ -206,7 +220,14 @@ void Simulation::write_behind_steps(BufferId buffer, std::size_t offset, std::sp
 
 void Simulation::set_settings(const Settings& wanted) {
     if (wanted.sleeping) grow_everywhere(BufferId::Rests, body_capacity);
+    if (wanted.broad_phase != settings.broad_phase) search_anew();
     settings = wanted;
+}
+
+void Simulation::search_anew() {
+    constexpr uint none = 0;
+    write_behind_steps(BufferId::Counters, k_counter_searched_slots * sizeof(uint), std::as_bytes(std::span(&none, 1)));
+    still_steps = 0;
 }
 
 void Simulation::step(const Population& population, bool with_poses, BodyChanges changes) {
@@ -296,13 +317,16 @@ void Simulation::prepare_kernels(const Population& population) {
         const Stage stage{static_cast<int>(i)};
         if (&placement.of(stage) == gpu.get()) run_stage(list, stage, first);
     }
+    first.searches = false;
+    run_stage(list, Stage::BroadPhase, first);
     gpu->prepare(list.kernels);
     kernels_prepared = true;
 }
 
 void Simulation::enqueue(Pending entry) {
     prepare_kernels(entry.population);
-    const StepPlan now = plan_step(entry.population);
+    StepPlan now = plan_step(entry.population);
+    now.searches = still_steps < patience || moves_bodies(entry.changes) || entry.population.slots != enqueued_slots;
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);
@@ -336,6 +360,8 @@ void Simulation::finish_oldest() {
         return;
     }
     ++finished_count;
+    still_steps = counters[k_counter_searched] != 0 ? 0 : still_steps + 1;
+    if (still_steps == k_steps_of_trust) patience = k_first_patience;
     newest_ticket = done.ticket;
     newest_has_poses = done.with_poses;
     newest_report.dispatches = static_cast<std::uint32_t>(done.launches);
@@ -422,9 +448,15 @@ void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
-    log(LogLevel::Info, what_did_not_fit(counters));
+    if ((reasons & k_fit_strays) != 0) {
+        still_steps = 0;
+        patience = std::min(2 * patience, k_most_patience);
+    }
+    if ((reasons & ~k_fit_strays) != 0) {
+        log(LogLevel::Info, what_did_not_fit(counters));
+        ++growths;
+    }
     if ((reasons & (k_fit_colours | k_fit_substeps)) != 0) follow_demand(counters);
-    ++growths;
     newest_has_poses = false; // the ring goes on, and soon has no room for that frame
 
     // The steps behind it changed nothing either, but each has exchanged the manifolds with the old ones.

@@ -38,7 +38,10 @@ public:
     /// one's; the bodies are not its business. Throws Error where there is no room, and has changed nothing then.
     void restore(const SavedState&);
 
+    /// Needs settle() before.
     void set_settings(const Settings&);
+    /// The next step searches for pairs, whether that is due or not. Needs settle() before.
+    void search_anew();
     bool watches_contacts() const { return plan.watch != ContactWatch::None; }
     /// Which contact reports steps make from now on. Waits for the steps on their way.
     void watch_contacts(ContactWatch);
@@ -125,6 +128,8 @@ private:
     std::deque<Pending> pending;
     std::uint64_t finished_count = 0;
     std::uint32_t growths = 0;
+    uint still_steps = 0;    ///< in a row that did not have to search for pairs
+    uint patience = 8;       ///< so many of them, and the next ones get no launches for the search
     uint window_steps = 0;   ///< since the demand was last looked at
     uint window_colours = 0; ///< most colours since
     uint window_substeps = 0;

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 2;
+constexpr std::uint32_t k_version = 3;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
@@ -112,6 +112,7 @@ template <typename File, typename State> void visit(File& file, State& state) {
     file.list(state.impulses);
     file.list(state.contact_states);
     file.list(state.rests);
+    file.list(state.aabbs);
 }
 
 /// A file may have been made by anyone: indices that lead out of a list are refused here.
@@ -138,7 +139,10 @@ void check(SavedState& state) {
     if (report.pairs != state.manifolds.size() || report.manifolds != touching || report.contacts != solved_count ||
         (!state.contact_states.empty() && state.contact_states.size() != report.pairs) ||
         (!state.rests.empty() && state.rests.size() != slots) || counters[k_counter_did_not_fit] != 0 ||
-        counters[k_counter_body_count] > slots || counters[k_counter_old_pair_count] != report.pairs)
+        counters[k_counter_body_count] > slots || counters[k_counter_old_pair_count] != report.pairs ||
+        counters[k_counter_pair_demand] != report.pairs || counters[k_counter_search_count] != 0 ||
+        counters[k_counter_pairs_changed] != 0 || counters[k_counter_searched_slots] != state.aabbs.size() ||
+        state.aabbs.size() > k_most_bodies)
         throw Error("its counts do not go together");
 }
 

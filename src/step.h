@@ -22,6 +22,7 @@ struct Population {
 struct StepPlan {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
     uint body_count = 0;        ///< body slots in use
+    bool searches = true;       ///< the search for pairs gets launches, which it may turn out not to need
     uint pair_capacity = 0;     ///< room in the buffers that have a record a pair
     uint table_size = 0;        ///< slots of PairTable
     uint colour_capacity = 0;   ///< colours that get launches

@@ -23,7 +23,7 @@ struct Resting {
 };
 
 Resting resting(const World& world, BodyId id) {
-    constexpr double k_margin = 0.01; // m, of a body at rest: half the distance at which contacts are seen
+    constexpr double k_margin = 0.0125; // m, at rest: half the distance at which contacts are seen, and the skin
     const Pose pose = world.pose(id);
     const Shape shape = world.shape(id);
     const auto [x, y, z, w] = pose.rotation;
@@ -186,6 +186,103 @@ TEST_P(BroadPhases, bodies_all_in_one_place_are_all_pairs) {
         world.add(box_at({3.0f, 2.0f, 1.0f}));
     world.step();
     EXPECT_EQ(world.collision_pairs().size(), 70u * 69u / 2u);
+}
+
+// ---- pairs that last ----
+
+/// Bodies that drift and turn so slowly that a search lasts for many steps, and boxes that stand on each other.
+void add_slow_bodies(World& world) {
+    Clutter clutter;
+    world.add(bodies_of("stack:height=5"));
+    for (int i = 0; i < 120; ++i) {
+        BodyDefinition body = clutter.body();
+        body.pose.position.y += 20.0f;
+        body.gravity_scale = 0.0f;
+        const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+        if (body.kind != BodyKind::Static)
+            body.velocity = {{0.003f * sign, -0.005f, 0.002f}, {0.002f, 0.0f, 0.002f * sign}};
+        world.add(body);
+    }
+}
+
+TEST_P(BroadPhases, pairs_that_last_are_all_that_can_touch) {
+    World world = make_world();
+    add_slow_bodies(world);
+    world.step();
+    const std::uint32_t launches = world.report().dispatches;
+    int without_search = 0;
+    for (int i = 0; i < 150; ++i) {
+        const std::vector<BodyId> ids = world.bodies();
+        std::vector<Resting> oracle;
+        for (const BodyId id : ids)
+            oracle.push_back(resting(world, id));
+        world.step();
+        without_search += world.report().dispatches < launches ? 1 : 0;
+        const Pairs pairs = pairs_of(world);
+        const std::set<std::pair<std::uint32_t, std::uint32_t>> found(pairs.begin(), pairs.end());
+        constexpr double k_skins = -0.005; // m, of both: what touches without them must be there
+        for (std::size_t a = 0; a < oracle.size(); ++a) {
+            for (std::size_t b = a + 1; b < oracle.size(); ++b) {
+                const bool touch = (oracle[a].movable || oracle[b].movable) && gap(oracle[a], oracle[b]) < k_skins;
+                const bool is_found = found.contains({oracle[a].index, oracle[b].index});
+                ASSERT_TRUE(!touch || is_found) << "step " << i;
+            }
+        }
+    }
+    EXPECT_GT(without_search, 40);
+}
+
+TEST_P(BroadPhases, the_bits_do_not_depend_on_when_pairs_were_searched_for) {
+    World lasting = make_world(), in_one_go = make_world(), each_step = make_world();
+    for (World* world : {&lasting, &in_one_go, &each_step})
+        add_slow_bodies(*world);
+    for (int i = 0; i < 150; ++i) {
+        lasting.step();
+        ASSERT_EQ(lasting.report().step, static_cast<std::uint64_t>(i + 1)); // waits
+        Settings settings = each_step.settings();
+        settings.broad_phase = i % 2 == 0 ? BroadPhase::Bvh : BroadPhase::SweepAndPrune;
+        each_step.set_settings(settings);
+        each_step.step();
+        ASSERT_EQ(lasting.state_hash(), each_step.state_hash()) << "step " << i;
+    }
+    in_one_go.step(150); // steps are on their way when one of them turns out to have to search
+    EXPECT_EQ(in_one_go.state_hash(), lasting.state_hash());
+    EXPECT_EQ(in_one_go.report().pairs, lasting.report().pairs);
+    EXPECT_EQ(in_one_go.report().growths, lasting.report().growths);
+}
+
+TEST_P(BroadPhases, a_world_goes_on_from_a_snapshot_with_the_pairs_that_it_had) {
+    World world = make_world(), other = make_world();
+    add_slow_bodies(world);
+    world.step(40);
+    const Snapshot snapshot = world.snapshot();
+    other.restore(snapshot);
+    for (int i = 0; i < 40; ++i) {
+        world.step();
+        other.step();
+        ASSERT_EQ(other.report().pairs, world.report().pairs) << i;
+        ASSERT_EQ(other.state_hash(), world.state_hash()) << i;
+    }
+}
+
+TEST_P(BroadPhases, what_comes_into_an_old_box_meets_its_neighbours) {
+    World world = make_world();
+    world.add(ground());
+    const BodyId box = world.add(box_at({0.0f, 0.5f, 0.0f}));
+    world.add(box_at({9.0f, 0.5f, 0.0f})); // a slot at the end is given up
+    world.step(30);
+    world.remove(box);
+    world.step();
+    const BodyId same_place = world.add(box_at({0.001f, 0.5f, 0.0f}));
+    EXPECT_EQ(same_place.index, box.index);
+    world.step(60);
+    EXPECT_NEAR(world.pose(same_place).position.y, 0.5f, 0.002f);
+    world.remove(same_place);
+    world.step();
+    const BodyId above = world.add(box_at({0.0f, 1.6f, 0.0f}));
+    world.step(90);
+    EXPECT_NEAR(world.pose(above).position.y, 0.5f, 0.002f);
+    EXPECT_EQ(world.report().manifolds, 2u);
 }
 
 TALUS_ON_EVERY_DEVICE(BroadPhases);

@@ -16,7 +16,8 @@ namespace talus {
 /// Counts and times of one finished step.
 struct StepReport {
     std::uint64_t step = 0;               ///< how many steps the world had made with this one
-    std::uint32_t pairs = 0;              ///< of bodies whose bounding boxes overlap
+    std::uint32_t pairs = 0;              ///< of bodies whose bounding boxes overlapped, with a skin of an
+                                          ///< eighth of Settings::speculative_distance, when they were last searched
     std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors
     std::uint32_t contacts = 0;           ///< contact points
     std::uint32_t colours = 0;            ///< batches of the constraint graph
@@ -27,7 +28,7 @@ struct StepReport {
     std::uint32_t sleeping_bodies = 0; ///< see Settings::sleeping
     std::uint32_t growths = 0;         ///< steps done again with larger buffers or more launches, so far
     std::uint32_t dispatches = 0;      ///< launches of kernels that the host gave
-    BroadPhase broad_phase = BroadPhase::Auto; ///< what found the pairs; Auto before the first step
+    BroadPhase broad_phase = BroadPhase::Auto; ///< what searches for pairs; Auto before the first step
     double step_ms = 0.0;         ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
     std::vector<double> stage_ms; ///< one a stage, in the order of stage_names(); empty unless profiled
 };
@@ -65,7 +66,8 @@ struct GlBuffers {
     /// 16 bytes a body: vec3 half extents (m), uint word with the shape in bits 0–7 (0 box, 1 sphere), the body's kind
     /// in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here), and bit 16 set for a sensor.
     std::uint32_t shapes = 0;
-    std::uint32_t aabbs = 0; ///< 32 bytes a body: vec3 lower (m), float, vec3 upper (m), float
+    std::uint32_t aabbs =
+        0; ///< 32 bytes a body: vec3 lower (m), float, vec3 upper (m), float; of the last search for pairs
     /// 8 bytes a pair: uint body a, uint body b; their number is the word `pair_count_word` of `counters`.
     std::uint32_t pairs = 0;
     std::uint32_t manifolds = 0;      ///< 64 bytes a pair, see Manifold in src/state/records.shared.glsl
@@ -184,8 +186,9 @@ public:
 
     // ---- results of the last step (they wait for it) ----
 
-    std::vector<CollisionPair> collision_pairs() const; ///< sorted by index
-    std::vector<Contact> contacts() const;              ///< sorted by index
+    /// Those of StepReport::pairs, sorted by index.
+    std::vector<CollisionPair> collision_pairs() const;
+    std::vector<Contact> contacts() const; ///< sorted by index
     /// Counts and times.
     StepReport report() const;
     /// 64-bit hash of all poses and velocities in the order of `bodies()`: equal where the bits are equal.

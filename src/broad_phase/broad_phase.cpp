@@ -14,7 +14,7 @@ static void sort_bodies(Device& device, uint body_count) {
                          .keys_swap = BufferId::SortKeysSwap,
                          .values_swap = BufferId::SortValuesSwap,
                          .capacity = body_count,
-                         .count_counter = k_counter_body_count});
+                         .count_counter = k_counter_search_count});
 }
 
 static void sort_along_widest_axis(Device& device, uint body_count) {
@@ -51,29 +51,38 @@ static void make_tree(Device& device, uint body_count, uint top) {
 static void find_pairs(Device& device, const Kernel& kernel, uint body_count, uint tree_top = 0) {
     constexpr uint count = 0, write = 1;
     device.run({.kernel = kernel, .items = body_count, .args = {count, tree_top}});
-    exclusive_scan(device, BufferId::PairCounts, body_count, k_counter_body_count, k_counter_pair_demand);
+    exclusive_scan(device, BufferId::PairCounts, body_count, k_counter_search_count, k_counter_found_pairs);
     device.run({.kernel = kernel, .items = body_count, .args = {write, tree_top}});
 }
 
-void broad_phase(Device& device, const StepPlan& plan) {
+// What it launches does nothing in a step whose pairs are still those of the last search.
+static void search(Device& device, const StepPlan& plan) {
+    if (plan.broad_phase == BroadPhase::SweepAndPrune && plan.small) {
+        device.run({.kernel = order_bodies, .items = 1});
+        device.run({.kernel = sweep_in_group, .items = 1});
+        return;
+    }
+    device.run({.kernel = find_strays, .items = plan.body_count});
+    device.run({.kernel = update_aabbs, .items = plan.body_count});
     if (plan.broad_phase == BroadPhase::Brute) {
-        device.run({.kernel = update_aabbs, .items = plan.body_count});
         find_pairs(device, test_all_pairs, plan.body_count);
     } else if (plan.broad_phase == BroadPhase::Bvh) {
         const uint top = tree_top(plan.body_count);
         reserve_tree(device);
-        device.run({.kernel = update_aabbs, .items = plan.body_count});
         make_tree(device, plan.body_count, top);
         find_pairs(device, search_tree, plan.body_count, top);
-    } else if (plan.small) {
-        device.run({.kernel = order_bodies, .items = 1});
-        device.run({.kernel = sweep_in_group, .items = 1});
     } else {
-        device.run({.kernel = update_aabbs, .items = plan.body_count});
         sort_along_widest_axis(device, plan.body_count);
         find_pairs(device, sweep_pairs, plan.body_count);
     }
-    device.run({.kernel = plan_pairs, .items = 1});
+}
+
+void broad_phase(Device& device, const StepPlan& plan) {
+    if (plan.searches)
+        search(device, plan);
+    else
+        device.run({.kernel = find_strays, .items = plan.body_count});
+    device.run({.kernel = plan_pairs, .items = 1, .args = {plan.searches}});
 }
 
 } // namespace talus::engine

@@ -11,6 +11,7 @@ struct StepPlan;
 /// Fills Pairs, and Counters[k_counter_pair_count] with their number.
 void broad_phase(Device&, const StepPlan&);
 
+extern const Kernel find_strays;
 extern const Kernel update_aabbs;
 extern const Kernel order_bodies;
 extern const Kernel gather_aabbs;

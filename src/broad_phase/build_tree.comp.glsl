@@ -2,7 +2,7 @@
 // One invocation is a node of the lowest level of this launch; its group makes the four levels above.
 // Run once for every four levels. args.x: the lowest level's shift; at 0 its nodes, the leaves, are made first, from
 // the bodies in sorted order. args.y: the root's shift.
-// Reads: Aabbs, SortKeys, SortValues (leaves); TreeNodes, made by the launch before (others).
+// Reads: Counters, Aabbs, SortKeys, SortValues (leaves); TreeNodes, made by the launch before (others).
 // Writes: TreeNodes; TreeGrids (end: where the empty body slots begin).
 // Needs: a barrier after the sort, and between launches.
 // Overflow: none; the host has made room for all levels.
@@ -13,6 +13,7 @@
 
 layout(local_size_x = 256) in; // k_tree_group
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) readonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
@@ -34,6 +35,7 @@ Aabb make_leaf(uint place)
 
 void main()
 {
+    if (counters[k_counter_search_count] == 0u) return;
     uint me = gl_LocalInvocationID.x;
     uint shift = args.x;
     uint node = item_index();

@@ -21,6 +21,7 @@ static void make_leaves(CpuState& state, uint top) {
 }
 
 static void build_tree_on_cpu(CpuState& state, const Launch& launch) {
+    if (state.counters[k_counter_search_count] == 0) return;
     const uint lowest = launch.args[0], top = launch.args[1];
     if (lowest == 0) make_leaves(state, top);
     for (uint shift = lowest + k_tree_bits; shift <= std::min(lowest + k_tree_shift, top); shift += k_tree_bits) {

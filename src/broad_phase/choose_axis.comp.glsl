@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One group: the axis of largest spread from all groups' sums (thesis, section 3.2).
-// Reads: SpreadSums.
+// Reads: Counters, SpreadSums.
 // Writes: SweepAxes, one record.
 // Needs: a barrier after measure_spread.
 // Overflow: none.
@@ -9,6 +9,7 @@
 
 layout(local_size_x = 256) in; // k_spread_group
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer SpreadSums { SpreadSum spread_sums[]; };
 layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 
@@ -16,6 +17,7 @@ layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 
 void main()
 {
+    if (counters[k_counter_search_count] == 0u) return;
     SpreadSum sum = sum_spread();
     if (gl_LocalInvocationID.x == 0u) sweep_axes[0] = choose_sweep_axis(sum, parameters.body_count);
 }

@@ -6,6 +6,7 @@
 namespace talus::engine {
 
 static void choose_axis_on_cpu(CpuState& state, const Launch&) {
+    if (state.counters[k_counter_search_count] == 0) return;
     state.sweep_axes[0] = choose_sweep_axis(sum_spread(state), state.parameters.body_count);
 }
 

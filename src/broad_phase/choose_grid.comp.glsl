@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One group: the cells of the tree's order from all groups' sums.
-// Reads: SpreadSums.
+// Reads: Counters, SpreadSums.
 // Writes: TreeGrids, one record.
 // Needs: a barrier after measure_spread.
 // Overflow: none.
@@ -10,6 +10,7 @@
 
 layout(local_size_x = 256) in; // k_spread_group
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer SpreadSums { SpreadSum spread_sums[]; };
 layout(std430) writeonly buffer TreeGrids { TreeGrid tree_grids[]; };
 
@@ -17,6 +18,7 @@ layout(std430) writeonly buffer TreeGrids { TreeGrid tree_grids[]; };
 
 void main()
 {
+    if (counters[k_counter_search_count] == 0u) return;
     SpreadSum sum = sum_spread();
     if (gl_LocalInvocationID.x == 0u) tree_grids[0] = choose_tree_grid(sum, parameters.body_count);
 }

@@ -6,6 +6,7 @@
 namespace talus::engine {
 
 static void choose_grid_on_cpu(CpuState& state, const Launch&) {
+    if (state.counters[k_counter_search_count] == 0) return;
     state.tree_grids[0] = choose_tree_grid(sum_spread(state), state.parameters.body_count);
 }
 

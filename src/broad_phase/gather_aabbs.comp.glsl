@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a place in the sorted order: its body's box, so that the sweep reads boxes one after the other; and
 // whether the large bodies, or the empty slots, begin here.
-// Reads: Aabbs, SortKeys, SortValues.
+// Reads: Counters, Aabbs, SortKeys, SortValues.
 // Writes: SortedAabbs, SweepAxes (first_large, end).
 // Needs: a barrier after the sort.
 // Overflow: none.
@@ -10,6 +10,7 @@
 
 layout(local_size_x = 64) in;
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) readonly buffer SortKeys { uint sort_keys[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
@@ -19,7 +20,7 @@ layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 void main()
 {
     uint place = item_index();
-    if (place >= parameters.body_count) return;
+    if (place >= counters[k_counter_search_count]) return;
     sorted_aabbs[place] = aabbs[sort_values[place]];
     uint key = sort_keys[place];
     uint key_before = place > 0u ? sort_keys[place - 1u] : 0u;

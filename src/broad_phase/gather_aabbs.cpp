@@ -7,7 +7,7 @@
 namespace talus::engine {
 
 static void gather_aabbs_on_cpu(CpuState& state, const Launch&) {
-    state.parallel(state.parameters.body_count, [&](uint place) {
+    state.parallel(state.counters[k_counter_search_count], [&](uint place) {
         state.sorted_aabbs[place] = state.aabbs[state.sort_values[place]];
         const uint key = state.sort_keys[place];
         const uint key_before = place > 0 ? state.sort_keys[place - 1] : 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One group is k_spread_group body slots: their sums, added as a tree of fixed shape so that the rounding is the same
 // on every device.
-// Reads: Aabbs.
+// Reads: Counters, Aabbs.
 // Writes: SpreadSums, one a group.
 // Needs: a barrier after update_aabbs.
 // Overflow: none.
@@ -10,6 +10,7 @@
 
 layout(local_size_x = 256) in; // k_spread_group
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) writeonly buffer SpreadSums { SpreadSum spread_sums[]; };
 
@@ -17,6 +18,7 @@ shared SpreadSum sums[k_spread_group];
 
 void main()
 {
+    if (counters[k_counter_search_count] == 0u) return;
     uint me = gl_LocalInvocationID.x;
     uint body = item_index();
     if (body < parameters.body_count)

@@ -7,7 +7,7 @@
 namespace talus::engine {
 
 static void measure_spread_on_cpu(CpuState& state, const Launch&) {
-    const uint body_count = state.parameters.body_count;
+    const uint body_count = state.counters[k_counter_search_count];
     const uint group_count = (body_count + k_spread_group - 1) / k_spread_group;
     const auto sum_group = [&](uint group) {
         std::array<SpreadSum, k_spread_group> sums;

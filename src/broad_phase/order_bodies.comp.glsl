@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One group does for a small world what update_aabbs, measure_spread, choose_axis, write_sort_keys, the sort and
-// gather_aabbs do for a large one, with the same results: six dispatches that wait for each other become one.
+// One group does for a small world what find_strays, update_aabbs, measure_spread, choose_axis, write_sort_keys, the sort and
+// gather_aabbs do for a large one, with the same results: seven dispatches that wait for each other become one.
 // Reads: Poses, Velocities, Shapes.
-// Writes: Aabbs, SpreadSums, SweepAxes, SortKeys, SortValues, SortedAabbs.
+// Writes: Counters, Aabbs, SpreadSums, SweepAxes, SortKeys, SortValues, SortedAabbs.
 // Needs: nothing. At most k_island_bodies body slots.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -12,6 +12,7 @@
 
 layout(local_size_x = 512) in;
 
+layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
@@ -29,12 +30,18 @@ const uint k_spread_groups = k_island_bodies / k_spread_group; // 4
 shared SpreadSum sums[k_spread_group];
 shared SpreadSum group_sums[k_spread_groups];
 shared SweepAxis sweep_axis;
+shared bool strays;
 
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
 Aabb load_aabb(uint body)
 {
     AabbCells box = aabbs[body];
     return unpack(box);
+}
+
+Aabb box_now(uint body)
+{
+    return compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
 }
 
 // A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis. What it
@@ -69,9 +76,15 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     uint body_count = parameters.body_count;
+    if (me == 0u) strays = counters[k_counter_searched_slots] != body_count;
+    barrier();
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
-        aabbs[body] =
-            pack(compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters));
+        if (!is_within(box_now(body), load_aabb(body))) strays = true;
+    barrier();
+    if (!strays) return;
+    if (me == 0u) counters[k_counter_search_count] = body_count;
+    for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
+        aabbs[body] = pack(with_skin(box_now(body), parameters));
     groupMemoryBarrier();
     barrier();
     SpreadSum sum = measure_spread();

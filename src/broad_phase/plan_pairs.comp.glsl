@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One invocation: how many pairs there are, whether they fit, and the launches that treat them.
+// args.x: 1 where the search had launches.
 // Reads: Counters.
 // Writes: Counters, Dispatches.
 // Needs: a barrier after the scan of the pair counts.
 // Overflow: says so in k_counter_did_not_fit. Once that is set there are no pairs to treat, in this step and in those
-// behind it that are on their way already: the last step's manifolds must be there when the host does it again.
+// behind it that are on their way already: the last step's manifolds must be there when the host does it again. So it is
+// where a search is due that had no launches.
 #include "state/dispatch.shared.glsl"
 
 layout(local_size_x = 1) in;
@@ -14,8 +16,28 @@ layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 
 void main()
 {
+    bool due = counters[k_counter_search_count] != 0u;
+    counters[k_counter_searched] = due ? 1u : 0u;
+    counters[k_counter_search_count] = 0u;
     uint demand = counters[k_counter_pair_demand];
-    if (demand > parameters.pair_capacity) counters[k_counter_did_not_fit] |= k_fit_pairs;
+    if (parameters.body_count == 0u) { // nothing has looked at the bodies
+        demand = 0u;
+        counters[k_counter_pairs_changed] = 0u;
+    }
+    if (args.x == 1u) {
+        if (due) {
+            demand = counters[k_counter_found_pairs];
+            counters[k_counter_pairs_changed] = 1u;
+        }
+        counters[k_counter_searched_slots] = parameters.body_count;
+    } else if (due || counters[k_counter_pairs_changed] != 0u) {
+        counters[k_counter_did_not_fit] |= k_fit_strays;
+    }
+    counters[k_counter_pair_demand] = demand;
+    if (demand > parameters.pair_capacity) {
+        counters[k_counter_did_not_fit] |= k_fit_pairs;
+        counters[k_counter_searched_slots] = k_none; // not all were written
+    }
     uint pair_count = counters[k_counter_did_not_fit] == 0u ? demand : 0u;
     counters[k_counter_pair_count] = pair_count;
     counters[k_counter_manifold_count] = 0u;

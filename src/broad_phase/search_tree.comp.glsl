@@ -43,7 +43,7 @@ void take(uint partner)
 // Takes the partners that the counting kept, and returns the place from which on the search has to go.
 uint take_kept(uint end)
 {
-    uint next = own + 1u < parameters.body_count ? pair_counts[own + 1u] : counters[k_counter_pair_demand];
+    uint next = own + 1u < parameters.body_count ? pair_counts[own + 1u] : counters[k_counter_found_pairs];
     uint count = next - offset;
     uint partner = own;
     while (found < min(count, k_kept_partners)) {
@@ -56,7 +56,7 @@ uint take_kept(uint end)
 void main()
 {
     own = item_index();
-    if (own >= parameters.body_count) return;
+    if (own >= counters[k_counter_search_count]) return;
     uint end = tree_grids[0].end;
     uint place = own + 1u;
     body = sort_values[own];

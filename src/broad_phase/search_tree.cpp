@@ -9,12 +9,13 @@
 namespace talus::engine {
 
 static void search_tree_on_cpu(CpuState& state, const Launch& launch) {
+    if (state.counters[k_counter_search_count] == 0) return;
     const bool writing = launch.args[0] == 1;
     const uint top = launch.args[1];
     const uint body_count = state.parameters.body_count;
     const uint end = state.tree_grids[0].end;
     const auto offset_of = [&](uint place) {
-        return place < body_count ? state.pair_counts[place] : state.counters[k_counter_pair_demand];
+        return place < body_count ? state.pair_counts[place] : state.counters[k_counter_found_pairs];
     };
     state.parallel(body_count, [&](uint own) {
         const uint body = state.sort_values[own];

@@ -3,7 +3,7 @@
 // the same results: all boxes fit into its shared memory.
 // One invocation is a body in sorted order, as in sweep_pairs.
 // Reads: SortedAabbs, SweepAxes, SortValues.
-// Writes: PairCounts (scanned), Pairs, Counters (the demand).
+// Writes: PairCounts (scanned), Pairs, Counters.
 // Needs: a barrier after order_bodies. At most k_island_bodies body slots.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
 #include "state/math.shared.glsl"
@@ -87,6 +87,7 @@ uint sum_before(uint value)
 
 void main()
 {
+    if (counters[k_counter_search_count] == 0u) return;
     uint me = gl_LocalInvocationID.x;
     bool is_body = me < parameters.body_count;
     SweepAxis sweep_axis = sweep_axes[0];
@@ -104,5 +105,5 @@ void main()
         pair_counts[me] = offset;
         sweep(me, box, sweep_axis, true, offset);
     }
-    if (me == gl_WorkGroupSize.x - 1u) counters[k_counter_pair_demand] = offset + found;
+    if (me == gl_WorkGroupSize.x - 1u) counters[k_counter_found_pairs] = offset + found;
 }

@@ -3,7 +3,7 @@
 // then all large ones (thesis, algorithm 2). The bodies of a group are neighbours in that order and sweep much the same
 // boxes, so the group fetches them together, a tile at a time. Run twice: args.x = 0 counts, 1 writes at the scanned
 // offsets.
-// Reads: SortedAabbs, SweepAxes, SortValues.
+// Reads: Counters, SortedAabbs, SweepAxes, SortValues.
 // Writes: PairCounts (counting) or Pairs (writing), in the order of the sort.
 // Needs: a barrier after gather_aabbs; for writing, after the scan of the counts.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
@@ -13,6 +13,7 @@
 
 layout(local_size_x = 64) in;
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer SortedAabbs { AabbCells sorted_aabbs[]; };
 layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
@@ -63,6 +64,7 @@ void sweep(uint first, uint end, uint axis, float limit, bool takes_part)
 
 void main()
 {
+    if (counters[k_counter_search_count] == 0u) return;
     place = item_index();
     uint group_first = place - gl_LocalInvocationID.x;
     bool is_body = place < parameters.body_count;

@@ -9,7 +9,7 @@
 namespace talus::engine {
 
 static void sweep_pairs_on_cpu(CpuState& state, const Launch& launch) {
-    const uint body_count = state.parameters.body_count;
+    const uint body_count = state.counters[k_counter_search_count];
     const bool writing = launch.args[0] == 1;
     const uint axis = state.sweep_axes[0].axis;
     const uint first_large = state.sweep_axes[0].first_large;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body, tested against every body after it (thesis, algorithm 1): the oracle of the sweep.
 // Run twice: args.x = 0 counts, 1 writes at the scanned offsets.
-// Reads: Aabbs.
+// Reads: Counters, Aabbs.
 // Writes: PairCounts (counting) or Pairs (writing).
 // Needs: a barrier after update_aabbs; for writing, after the scan of the counts.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
@@ -10,6 +10,7 @@
 
 layout(local_size_x = 64) in;
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
 layout(std430) writeonly buffer Pairs { Pair pairs[]; };
@@ -17,7 +18,7 @@ layout(std430) writeonly buffer Pairs { Pair pairs[]; };
 void main()
 {
     uint body = item_index();
-    if (body >= parameters.body_count) return;
+    if (body >= counters[k_counter_search_count]) return;
     bool writing = args.x == 1u;
     uint offset = writing ? pair_counts[body] : 0u;
     uint found = 0u;

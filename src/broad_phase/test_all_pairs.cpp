@@ -7,7 +7,7 @@
 namespace talus::engine {
 
 static void test_all_pairs_on_cpu(CpuState& state, const Launch& launch) {
-    const uint body_count = state.parameters.body_count;
+    const uint body_count = state.counters[k_counter_search_count];
     const bool writing = launch.args[0] == 1;
     state.parallel(body_count, [&](uint body) {
         const uint offset = writing ? state.pair_counts[body] : 0;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: its world bounding box.
-// Reads: Poses, Velocities, Shapes.
+// One invocation is a body slot: its world bounding box, with a skin.
+// Reads: Counters, Poses, Velocities, Shapes.
 // Writes: Aabbs.
-// Needs: nothing.
+// Needs: a barrier after find_strays.
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 
 layout(local_size_x = 64) in;
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
@@ -17,7 +18,7 @@ layout(std430) writeonly buffer Aabbs { AabbCells aabbs[]; };
 void main()
 {
     uint body = item_index();
-    if (body >= parameters.body_count) return;
-    aabbs[body] =
-        pack(compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters));
+    if (body >= counters[k_counter_search_count]) return;
+    Aabb box = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
+    aabbs[body] = pack(with_skin(box, parameters));
 }

@@ -7,9 +7,10 @@
 namespace talus::engine {
 
 static void update_aabbs_on_cpu(CpuState& state, const Launch&) {
-    state.parallel(state.parameters.body_count, [&](uint body) {
-        state.aabbs[body] =
-            compute_aabb(state.poses[body], state.velocities[body], state.shapes[body], state.parameters);
+    const Parameters& p = state.parameters;
+    state.parallel(state.counters[k_counter_search_count], [&](uint body) {
+        const Aabb box = compute_aabb(state.poses[body], state.velocities[body], state.shapes[body], p);
+        state.aabbs[body] = with_skin(box, p);
     });
 }
 

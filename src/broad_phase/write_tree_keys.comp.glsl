@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: the key that sorts it into the order of the tree.
-// Reads: Aabbs, TreeGrids.
+// Reads: Counters, Aabbs, TreeGrids.
 // Writes: SortKeys, SortValues (the body).
 // Needs: a barrier after choose_grid.
 // Overflow: none.
@@ -10,6 +10,7 @@
 
 layout(local_size_x = 64) in;
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) readonly buffer TreeGrids { TreeGrid tree_grids[]; };
 layout(std430) writeonly buffer SortKeys { uint sort_keys[]; };
@@ -18,7 +19,7 @@ layout(std430) writeonly buffer SortValues { uint sort_values[]; };
 void main()
 {
     uint body = item_index();
-    if (body >= parameters.body_count) return;
+    if (body >= counters[k_counter_search_count]) return;
     sort_keys[body] = tree_key(unpack(aabbs[body]), tree_grids[0]);
     sort_values[body] = body;
 }

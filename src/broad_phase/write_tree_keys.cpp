@@ -7,7 +7,7 @@
 namespace talus::engine {
 
 static void write_tree_keys_on_cpu(CpuState& state, const Launch&) {
-    state.parallel(state.parameters.body_count, [&](uint body) {
+    state.parallel(state.counters[k_counter_search_count], [&](uint body) {
         state.sort_keys[body] = tree_key(state.aabbs[body], state.tree_grids[0]);
         state.sort_values[body] = body;
     });

@@ -25,7 +25,10 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    if (body == 0u) counters[k_counter_old_pair_count] = counters[k_counter_pair_count];
+    if (body == 0u) {
+        counters[k_counter_old_pair_count] = counters[k_counter_pair_count];
+        counters[k_counter_pairs_changed] = 0u;
+    }
     BodyPose pose = unpack(poses[body]);
     if (is_asleep(pose)) return;
     bool moves = is_mover(unpack(shapes[body]));

@@ -11,6 +11,7 @@ namespace talus::engine {
 static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
     const Parameters& p = state.parameters;
     state.counters[k_counter_old_pair_count] = state.counters[k_counter_pair_count];
+    state.counters[k_counter_pairs_changed] = 0;
     state.parallel(p.body_count, [&](uint body) {
         BodyPose& pose = state.poses[body];
         if (is_asleep(pose)) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3). Of a pair in
 // which a body sleeps and nothing moves it is the last step's.
+// args.x: 1 where the pairs are those of the last step, one by one.
 // Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds,
 // OldManifoldPoints.
 // Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints.
@@ -85,12 +86,31 @@ void keep_manifold(uint pair_index, Pair pair, uint old_index)
     }
 }
 
+// The search sees boxes with a skin.
+bool is_near(Pair pair)
+{
+    return is_candidate(compute_aabb(unpack(poses[pair.body_a]), unpack(velocities[pair.body_a]),
+                                     unpack(shapes[pair.body_a]), parameters),
+                        compute_aabb(unpack(poses[pair.body_b]), unpack(velocities[pair.body_b]),
+                                     unpack(shapes[pair.body_b]), parameters));
+}
+
+uint old_manifold_of(uint pair_index, Pair pair)
+{
+    if (args.x == 0u) return find_old_manifold(pair.body_a, pair.body_b);
+    return unpack(old_manifolds[pair_index]).point_count > 0u ? pair_index : k_none;
+}
+
 void main()
 {
     uint pair_index = item_index();
     if (pair_index >= counters[k_counter_pair_count]) return;
     Pair pair = pairs[pair_index];
-    uint old_index = find_old_manifold(pair.body_a, pair.body_b);
+    if (!is_near(pair)) {
+        manifolds[pair_index] = pack(no_manifold(pair));
+        return;
+    }
+    uint old_index = old_manifold_of(pair_index, pair);
     if (parameters.rest_steps > 0u && sleeps(pair.body_a, pair.body_b)) {
         keep_manifold(pair_index, pair, old_index);
         return;

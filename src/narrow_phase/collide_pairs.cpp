@@ -52,9 +52,27 @@ void keep_manifold(CpuState& state, uint pair_index, uint old_index) {
                 &state.manifold_points[std::size_t{4} * pair_index]);
 }
 
-void collide_pair(CpuState& state, uint pair_index) {
+/// The search sees boxes with a skin.
+bool is_near(const CpuState& state, const Pair& pair) {
+    const auto box_of = [&](uint body) {
+        return compute_aabb(state.poses[body], state.velocities[body], state.shapes[body], state.parameters);
+    };
+    return is_candidate(box_of(pair.body_a), box_of(pair.body_b));
+}
+
+uint old_manifold_of(const CpuState& state, uint pair_index, bool same_pairs) {
+    const Pair& pair = state.pairs[pair_index];
+    if (!same_pairs) return find_old_manifold(state, pair.body_a, pair.body_b);
+    return state.old_manifolds[pair_index].point_count > 0 ? pair_index : k_none;
+}
+
+void collide_pair(CpuState& state, uint pair_index, bool same_pairs) {
     const Pair pair = state.pairs[pair_index];
-    const uint old_index = find_old_manifold(state, pair.body_a, pair.body_b);
+    if (!is_near(state, pair)) {
+        state.manifolds[pair_index] = no_manifold(pair);
+        return;
+    }
+    const uint old_index = old_manifold_of(state, pair_index, same_pairs);
     if (state.parameters.rest_steps > 0 && sleeps(state, pair)) return keep_manifold(state, pair_index, old_index);
     const Carriers carriers = old_index != k_none ? read_carriers(state, old_index) : no_carriers();
 
@@ -87,9 +105,9 @@ void collide_pair(CpuState& state, uint pair_index) {
             make_point(g, pose_a.position, offset, i, impulses[static_cast<int>(i)]);
 }
 
-void collide_pairs_on_cpu(CpuState& state, const Launch&) {
+void collide_pairs_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(
-        state.counters[k_counter_pair_count], [&](uint pair) { collide_pair(state, pair); }, 64);
+        state.counters[k_counter_pair_count], [&](uint pair) { collide_pair(state, pair, launch.args[0] == 1); }, 64);
 }
 
 } // namespace

@@ -12,8 +12,8 @@ void index_old_manifolds(Device& device, const StepPlan& plan) {
 }
 
 void narrow_phase(Device& device, const StepPlan& plan) {
-    index_old_manifolds(device, plan);
-    device.run({.kernel = collide_pairs, .slot = k_dispatch_pairs});
+    if (plan.searches || plan.watch != ContactWatch::None) index_old_manifolds(device, plan);
+    device.run({.kernel = collide_pairs, .slot = k_dispatch_pairs, .args = {!plan.searches}});
 }
 
 } // namespace talus::engine

@@ -72,8 +72,8 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
     float heavy = heaviness(load_speed);
     precise float damping_ratio = p.contact_damping_ratio * square_root(heavy);
     s.soft = soft_row(w, damping_ratio, h);
-    precise float push_speed = p.contact_push_speed * max(reciprocal(heavy), k_least_push_share);
-    s.push_speed = push_speed;
+    precise float slower = p.contact_push_speed * max(reciprocal(heavy), k_least_push_share);
+    s.push_speed = choose(heavy > 1.0f, slower, p.contact_push_speed);
     return s;
 }
 

@@ -16,7 +16,7 @@ namespace talus::engine {
 // X(block, field, element, layout, role)
 //   layout  the element's words: f float, u uint
 //   role    State    survives the step, and is the same on every device
-//           Result   made anew in each step, the same on every device
+//           Result   made anew in each step, those of the search for pairs where it is due; the same on every device
 //           Scratch  made anew in each step, in an order or at places that may differ between runs
 #define TALUS_BUFFERS(X)                                                                                               \
     /* bodies */                                                                                                       \
@@ -28,7 +28,7 @@ namespace talus::engine {
     X(Rests, rests, BodyRest, "ffffffff", State)                                                                       \
     X(Changes, changes, uint, "u", Scratch)                                                                            \
     /* broad phase */                                                                                                  \
-    X(Aabbs, aabbs, Aabb, "fffffffu", Result)                                                                          \
+    X(Aabbs, aabbs, Aabb, "fffffffu", State)                                                                           \
     X(SpreadSums, spread_sums, SpreadSum, "ffffffffffff", Result)                                                      \
     X(SweepAxes, sweep_axes, SweepAxis, "ufuu", Result)                                                                \
     X(SortKeys, sort_keys, uint, "u", Result)                                                                          \
@@ -42,7 +42,7 @@ namespace talus::engine {
     X(Partners, partners, uint, "u", Result)                                                                           \
     X(PairCounts, pair_counts, uint, "u", Result)                                                                      \
     X(ScanSums, scan_sums, uint, "u", Scratch)                                                                         \
-    X(Pairs, pairs, Pair, "uu", Result)                                                                                \
+    X(Pairs, pairs, Pair, "uu", State)                                                                                 \
     /* narrow phase */                                                                                                 \
     X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
     X(OldManifolds, old_manifolds, Manifold, "uuuufffuffffffuu", State)                                                \

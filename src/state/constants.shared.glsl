@@ -57,7 +57,7 @@ const uint k_whole_hub = 0x80u; // Manifold::colour has it added where the manif
 
 // Words of the Counters buffer. "demand" counts what was wanted, also beyond a buffer's end.
 const uint k_counter_body_count = 0u;
-const uint k_counter_pair_demand = 1u;
+const uint k_counter_pair_demand = 1u;    // pairs of the last search
 const uint k_counter_pair_count = 2u;     // 0 in a step that did not fit
 const uint k_counter_manifold_count = 3u; // pairs that touch; once colours are planned, without sleeping ones
 const uint k_counter_contact_count = 4u;  // contact points
@@ -77,7 +77,13 @@ const uint k_counter_launched_overflow = 16u;
 const uint k_counter_report_count = 17u; // contact events
 const uint k_counter_sleeping_bodies = 18u;
 const uint k_counter_sleeping_manifolds = 19u; // of sleeping islands: nobody solves them
-const uint k_counter_words = 20u;
+// The search for pairs.
+const uint k_counter_search_count = 20u;   // body slots that are searched: all, or 0 where the last pairs still do
+const uint k_counter_found_pairs = 21u;    // by the search
+const uint k_counter_searched_slots = 22u; // body slots of the last search whose pairs there was room for
+const uint k_counter_pairs_changed = 23u;  // 1 where pairs are other ones than OldManifolds has
+const uint k_counter_searched = 24u;       // 1 where this step had to search
+const uint k_counter_words = 25u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -87,6 +93,7 @@ const uint k_fit_hubs = 8u;
 const uint k_fit_search = 16u; // no room is missing: a driver ended the search for pairs
 const uint k_fit_reports = 32u; // the step itself is done; those behind it wait until its reports have been fetched
 const uint k_fit_groups = 64u; // groups that wait for each other were not run side by side: the step went wrong
+const uint k_fit_strays = 128u; // no room is missing: the step had to search for pairs, and had no launches for it
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.

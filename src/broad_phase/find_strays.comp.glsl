@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body slot: whether its bounding box has left the one that the last search for pairs had of it. Then
+// pairs are searched for anew.
+// Reads: Poses, Velocities, Shapes, Aabbs.
+// Writes: Counters.
+// Needs: nothing.
+// Overflow: none.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
+layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
+layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
+layout(std430) buffer Counters { uint counters[]; };
+
+void main()
+{
+    uint body = item_index();
+    if (body >= parameters.body_count || counters[k_counter_search_count] != 0u) return; // it is known already
+    bool strays = counters[k_counter_searched_slots] != parameters.body_count;
+    if (!strays) {
+        Aabb box = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
+        strays = !is_within(box, unpack(aabbs[body]));
+    }
+    if (strays) counters[k_counter_search_count] = parameters.body_count; // all write the same
+}
