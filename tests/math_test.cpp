@@ -276,16 +276,16 @@ TEST(Math, a_heavy_load_is_damped_in_proportion_and_pushed_apart_more_slowly) {
         settings.contact_damping_ratio = ratio;
         return make_substep(8, false, load_speed, parameters_for(settings));
     };
-    const Substep light = of_damping(5.0f, 2.9f), heavy = of_damping(5.0f, 300.0f);
-    EXPECT_EQ(light.soft.bias_rate, of_damping(5.0f, 0.0f).soft.bias_rate) << "up to 3 m/s nothing is heavy";
+    const Substep light = of_damping(5.0f, 8.0f), heavy = of_damping(5.0f, 800.0f);
+    EXPECT_EQ(light.soft.bias_rate, of_damping(5.0f, 0.0f).soft.bias_rate) << "up to 8 m/s nothing is heavy";
     EXPECT_EQ(light.push_speed, settings.contact_push_speed);
     // A hundred times the mass on the same spring has a tenth of the damping ratio: ten times as much is asked for.
     EXPECT_NEAR(heavy.soft.bias_rate / of_damping(50.0f, 0.0f).soft.bias_rate, 1.0f, 1e-5f);
-    EXPECT_NEAR(of_damping(5.0f, 6.0f).push_speed, 0.5f * settings.contact_push_speed, 1e-5f);
+    EXPECT_NEAR(of_damping(5.0f, 16.0f).push_speed, 0.5f * settings.contact_push_speed, 1e-5f);
     EXPECT_NEAR(heavy.push_speed, settings.contact_push_speed / 6.0f, 1e-5f);
 
     settings.stabilisation = Stabilisation::Baumgarte;
-    EXPECT_EQ(of_damping(5.0f, 300.0f).push_speed, settings.contact_push_speed);
+    EXPECT_EQ(of_damping(5.0f, 800.0f).push_speed, settings.contact_push_speed);
 }
 
 TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {

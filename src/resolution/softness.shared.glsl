@@ -32,7 +32,7 @@ struct Substep {
 
 // How many times as heavy as the two bodies is what they carry or stop, roughly: the speed that the impulses of the last
 // step give to both, over one that a light load does not reach. solver.md, Heavy on light.
-const float k_per_light_load = 0.333333343f; // s/m: over 3 m/s
+const float k_per_light_load = 0.125f; // s/m: over 8 m/s
 
 inline float heaviness(float load_speed)
 {
