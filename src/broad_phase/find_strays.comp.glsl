@@ -4,7 +4,7 @@
 // Reads: Poses, Velocities, Shapes, Aabbs.
 // Writes: Counters.
 // Needs: nothing.
-// Overflow: none.
+// Overflow: none; after a step that did not fit nothing is searched for, as it will be done again with the pairs that it had.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 
@@ -19,7 +19,8 @@ layout(std430) buffer Counters { uint counters[]; };
 void main()
 {
     uint body = item_index();
-    if (body >= parameters.body_count || counters[k_counter_search_count] != 0u) return; // it is known already
+    if (body >= parameters.body_count || counters[k_counter_did_not_fit] != 0u) return;
+    if (counters[k_counter_search_count] != 0u) return; // it is known already
     bool strays = counters[k_counter_searched_slots] != parameters.body_count;
     if (!strays) {
         Aabb box = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);

@@ -9,6 +9,7 @@
 namespace talus::engine {
 
 static void find_strays_on_cpu(CpuState& state, const Launch&) {
+    if (state.counters[k_counter_did_not_fit] != 0) return;
     const uint body_count = state.parameters.body_count;
     std::atomic<bool> strays = state.counters[k_counter_searched_slots] != body_count;
     if (!strays) {

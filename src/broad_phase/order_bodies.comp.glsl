@@ -76,6 +76,7 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     uint body_count = parameters.body_count;
+    if (counters[k_counter_did_not_fit] != 0u) return;
     if (me == 0u) strays = counters[k_counter_searched_slots] != body_count;
     barrier();
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)

@@ -14,30 +14,37 @@ layout(local_size_x = 1) in;
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 
-void main()
+void take_pairs(bool due)
 {
-    bool due = counters[k_counter_search_count] != 0u;
-    counters[k_counter_searched] = due ? 1u : 0u;
-    counters[k_counter_search_count] = 0u;
-    uint demand = counters[k_counter_pair_demand];
     if (parameters.body_count == 0u) { // nothing has looked at the bodies
-        demand = 0u;
+        counters[k_counter_pair_demand] = 0u;
         counters[k_counter_pairs_changed] = 0u;
     }
     if (args.x == 1u) {
         if (due) {
-            demand = counters[k_counter_found_pairs];
+            counters[k_counter_pair_demand] = counters[k_counter_found_pairs];
             counters[k_counter_pairs_changed] = 1u;
         }
         counters[k_counter_searched_slots] = parameters.body_count;
     } else if (due || counters[k_counter_pairs_changed] != 0u) {
         counters[k_counter_did_not_fit] |= k_fit_strays;
     }
-    counters[k_counter_pair_demand] = demand;
-    if (demand > parameters.pair_capacity) {
+    if (counters[k_counter_pair_demand] > parameters.pair_capacity) {
         counters[k_counter_did_not_fit] |= k_fit_pairs;
         counters[k_counter_searched_slots] = k_none; // not all were written
     }
+}
+
+void main()
+{
+    bool due = counters[k_counter_search_count] != 0u;
+    counters[k_counter_searched] = due ? 1u : 0u;
+    counters[k_counter_search_count] = 0u;
+    if (counters[k_counter_did_not_fit] == 0u)
+        take_pairs(due);
+    else if (due)
+        counters[k_counter_searched_slots] = k_none; // the search was not made to its end
+    uint demand = counters[k_counter_pair_demand];
     uint pair_count = counters[k_counter_did_not_fit] == 0u ? demand : 0u;
     counters[k_counter_pair_count] = pair_count;
     counters[k_counter_manifold_count] = 0u;

@@ -6,30 +6,38 @@
 
 namespace talus::engine {
 
+static void take_pairs(CpuState& state, bool due, bool had_launches) {
+    const Array<uint>& counters = state.counters;
+    const Parameters& p = state.parameters;
+    if (p.body_count == 0) { // nothing has looked at the bodies
+        counters[k_counter_pair_demand] = 0;
+        counters[k_counter_pairs_changed] = 0;
+    }
+    if (had_launches) {
+        if (due) {
+            counters[k_counter_pair_demand] = counters[k_counter_found_pairs];
+            counters[k_counter_pairs_changed] = 1;
+        }
+        counters[k_counter_searched_slots] = p.body_count;
+    } else if (due || counters[k_counter_pairs_changed] != 0) {
+        counters[k_counter_did_not_fit] |= k_fit_strays;
+    }
+    if (counters[k_counter_pair_demand] > p.pair_capacity) {
+        counters[k_counter_did_not_fit] |= k_fit_pairs;
+        counters[k_counter_searched_slots] = k_none; // not all were written
+    }
+}
+
 static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& counters = state.counters;
     const bool due = counters[k_counter_search_count] != 0;
     counters[k_counter_searched] = due ? 1 : 0;
     counters[k_counter_search_count] = 0;
-    uint demand = counters[k_counter_pair_demand];
-    if (state.parameters.body_count == 0) { // nothing has looked at the bodies
-        demand = 0;
-        counters[k_counter_pairs_changed] = 0;
-    }
-    if (launch.args[0] == 1) {
-        if (due) {
-            demand = counters[k_counter_found_pairs];
-            counters[k_counter_pairs_changed] = 1;
-        }
-        counters[k_counter_searched_slots] = state.parameters.body_count;
-    } else if (due || counters[k_counter_pairs_changed] != 0) {
-        counters[k_counter_did_not_fit] |= k_fit_strays;
-    }
-    counters[k_counter_pair_demand] = demand;
-    if (demand > state.parameters.pair_capacity) {
-        counters[k_counter_did_not_fit] |= k_fit_pairs;
-        counters[k_counter_searched_slots] = k_none; // not all were written
-    }
+    if (counters[k_counter_did_not_fit] == 0)
+        take_pairs(state, due, launch.args[0] == 1);
+    else if (due)
+        counters[k_counter_searched_slots] = k_none; // the search was not made to its end
+    const uint demand = counters[k_counter_pair_demand];
     const uint pair_count = counters[k_counter_did_not_fit] == 0 ? demand : 0;
     counters[k_counter_pair_count] = pair_count;
     counters[k_counter_manifold_count] = 0;
