@@ -36,7 +36,11 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
         device.read(std::array{ReadRequest{BufferId::Rests, bytes, saved.rests.data()}});
     }
     simulation.state_device().read(std::array{ReadRequest{BufferId::Counters, sizeof saved.counters, &saved.counters}});
-    saved.aabbs.resize(saved.counters[k_counter_searched_slots]);
+    // Of a world that has lost slots since, the next step searches anew.
+    uint& searched = saved.counters[k_counter_searched_slots];
+    if (searched > table.slot_count()) searched = 0;
+    saved.counters[k_counter_pair_demand] = saved.counters[k_counter_old_pair_count];
+    saved.aabbs.resize(searched);
     simulation.detection_device().read(
         std::array{ReadRequest{BufferId::Aabbs, saved.aabbs.size() * sizeof(Aabb), saved.aabbs.data()}});
     // The table may have given up slots since the last step.
@@ -55,7 +59,7 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
 void Simulation::restore(const SavedState& saved) {
     settle();
     const auto pair_count = static_cast<uint>(saved.manifolds.size());
-    reserve_bodies(std::max(saved.table.slot_count(), static_cast<uint>(saved.aabbs.size())));
+    reserve_bodies(saved.table.slot_count());
     reserve_pairs(pair_count);
     if (!saved.rests.empty()) grow_everywhere(BufferId::Rests, body_capacity);
 

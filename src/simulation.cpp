@@ -32,9 +32,9 @@ constexpr uint k_most_substeps_of_large = 32;
 constexpr uint k_most_manifolds_each = 64;
 // After so many steps in a row that did not have to search for pairs the next ones get no launches for it. Each time
 // that one of them has to search after all, and is done again, twice as many are asked for, up to the most; after so
-// many that went well the first number holds again.
+// many without a search the first number holds again.
 constexpr uint k_first_patience = 8;
-constexpr uint k_most_patience = 1024;
+constexpr uint k_most_patience = 256;
 constexpr uint k_steps_of_trust = 512;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
@@ -92,7 +92,7 @@ uint with_headroom(uint demand) {
 
 } // namespace
 
-Simulation::Simulation(const WorldOptions& options) {
+Simulation::Simulation(const WorldOptions& options) : patience(k_first_patience) {
     DeviceKind kind = options.device;
     std::string why = "asked for";
     if (kind == DeviceKind::Auto) {
@@ -225,8 +225,9 @@ void Simulation::set_settings(const Settings& wanted) {
 }
 
 void Simulation::search_anew() {
-    constexpr uint none = 0;
-    write_behind_steps(BufferId::Counters, k_counter_searched_slots * sizeof(uint), std::as_bytes(std::span(&none, 1)));
+    static_assert(k_counter_pairs_changed == k_counter_searched_slots + 1);
+    constexpr std::array<uint, 2> none{};
+    write_behind_steps(BufferId::Counters, k_counter_searched_slots * sizeof(uint), std::as_bytes(std::span(none)));
     still_steps = 0;
 }
 
@@ -448,10 +449,8 @@ void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
-    if ((reasons & k_fit_strays) != 0) {
-        still_steps = 0;
-        patience = std::min(2 * patience, k_most_patience);
-    }
+    still_steps = 0;
+    if ((reasons & k_fit_strays) != 0) patience = std::min(2 * patience, k_most_patience);
     if ((reasons & ~k_fit_strays) != 0) {
         log(LogLevel::Info, what_did_not_fit(counters));
         ++growths;
@@ -483,6 +482,7 @@ void Simulation::redo(std::span<const uint> counters) {
             apply_now(entry.population, entry.changes);
             owed_waking = std::max(owed_waking, entry.population.waking);
         }
+        search_anew(); // pairs and boxes may be of a search that came to nothing
         throw;
     }
     for (Pending& entry : again)

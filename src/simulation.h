@@ -129,7 +129,7 @@ private:
     std::uint64_t finished_count = 0;
     std::uint32_t growths = 0;
     uint still_steps = 0;    ///< in a row that did not have to search for pairs
-    uint patience = 8;       ///< so many of them, and the next ones get no launches for the search
+    uint patience;           ///< so many of them, and the next ones get no launches for the search
     uint window_steps = 0;   ///< since the demand was last looked at
     uint window_colours = 0; ///< most colours since
     uint window_substeps = 0;

@@ -132,6 +132,11 @@ void check(SavedState& state) {
         ++touching;
         solved_count += manifold.point_count;
     }
+    std::vector<std::pair<uint, uint>> pairs;
+    for (const Manifold& manifold : state.manifolds)
+        pairs.emplace_back(manifold.body_a, manifold.body_b);
+    std::ranges::sort(pairs);
+    if (std::ranges::adjacent_find(pairs) != pairs.end()) throw Error("two bodies have two manifolds");
     const StepReport& report = state.report;
     const auto& counters = state.counters;
     if (state.points.size() != point_count || state.impulses.size() != point_count)
@@ -142,7 +147,7 @@ void check(SavedState& state) {
         counters[k_counter_body_count] > slots || counters[k_counter_old_pair_count] != report.pairs ||
         counters[k_counter_pair_demand] != report.pairs || counters[k_counter_search_count] != 0 ||
         counters[k_counter_pairs_changed] != 0 || counters[k_counter_searched_slots] != state.aabbs.size() ||
-        state.aabbs.size() > k_most_bodies)
+        state.aabbs.size() > slots)
         throw Error("its counts do not go together");
 }
 

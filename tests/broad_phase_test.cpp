@@ -9,6 +9,7 @@
 
 #include "tests/bodies.h"
 #include "tests/devices.h"
+#include "tests/engine_run.h"
 
 namespace talus::tests {
 namespace {
@@ -283,6 +284,29 @@ TEST_P(BroadPhases, what_comes_into_an_old_box_meets_its_neighbours) {
     world.step(90);
     EXPECT_NEAR(world.pose(above).position.y, 0.5f, 0.002f);
     EXPECT_EQ(world.report().manifolds, 2u);
+}
+
+TEST_P(BroadPhases, a_step_behind_one_that_did_not_fit_leaves_pairs_and_boxes_alone) {
+    using engine::BufferId, engine::uint;
+    EngineRun run(options_on(GetParam()), bodies_of("pyramid:base=6"));
+    run.step();
+    const std::size_t slots = run.table.slot_count();
+    const std::vector<float> boxes = run.read<float>(BufferId::Aabbs, 8 * slots);
+    const uint pairs = run.counter(engine::k_counter_pair_demand);
+    for (engine::BodyPose& pose : run.table.poses)
+        pose.position.y += 5.0f;
+    run.simulation.write(BufferId::Poses, 0, std::span<const engine::BodyPose>(run.table.poses));
+    run.simulation.write(BufferId::Counters, engine::k_counter_did_not_fit, std::span(&engine::k_fit_colours, 1));
+    for (const BroadPhase kind : {BroadPhase::SweepAndPrune, BroadPhase::Bvh, BroadPhase::Brute}) {
+        EXPECT_TRUE(run.find_pairs(kind).empty());
+        EXPECT_EQ(run.read<float>(BufferId::Aabbs, 8 * slots), boxes);
+        EXPECT_EQ(run.counter(engine::k_counter_pair_demand), pairs);
+        EXPECT_EQ(run.counter(engine::k_counter_searched_slots), slots);
+    }
+    constexpr uint fits = 0;
+    run.simulation.write(BufferId::Counters, engine::k_counter_did_not_fit, std::span(&fits, 1));
+    run.find_pairs(BroadPhase::Bvh);
+    EXPECT_NE(run.read<float>(BufferId::Aabbs, 8 * slots), boxes);
 }
 
 TALUS_ON_EVERY_DEVICE(BroadPhases);

@@ -227,6 +227,7 @@ TEST_P(Paths, groups_that_wait_in_vain_are_an_error) {
     run.step_persistently(false, 2);
     EXPECT_EQ(run.counter(engine::k_counter_did_not_fit), engine::k_fit_groups);
     EXPECT_THROW(run.step(), Error);
+    EXPECT_EQ(run.counter(engine::k_counter_searched_slots), 0u) << "the next step searches for pairs";
 }
 
 TEST_P(Paths, islands_of_a_large_world_have_sub_steps_of_their_own) {

@@ -16,8 +16,8 @@ namespace talus {
 /// Counts and times of one finished step.
 struct StepReport {
     std::uint64_t step = 0;               ///< how many steps the world had made with this one
-    std::uint32_t pairs = 0;              ///< of bodies whose bounding boxes overlapped, with a skin of an
-                                          ///< eighth of Settings::speculative_distance, when they were last searched
+    std::uint32_t pairs = 0;              ///< of bodies whose bounding boxes overlapped, with a skin of 2.5 mm,
+                                          ///< when they were last searched
     std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors
     std::uint32_t contacts = 0;           ///< contact points
     std::uint32_t colours = 0;            ///< batches of the constraint graph
@@ -26,8 +26,8 @@ struct StepReport {
     std::uint32_t hubs = 0;            ///< bodies with so many contacts that most are solved with a share of their mass
     std::uint32_t frozen_bodies = 0;   ///< bodies whose velocity became non-finite, in all steps so far
     std::uint32_t sleeping_bodies = 0; ///< see Settings::sleeping
-    std::uint32_t growths = 0;         ///< steps done again with larger buffers or more launches, so far
-    std::uint32_t dispatches = 0;      ///< launches of kernels that the host gave
+    std::uint32_t growths = 0; ///< steps done again with larger buffers or more launches, so far; not for pairs alone
+    std::uint32_t dispatches = 0;              ///< launches of kernels that the host gave
     BroadPhase broad_phase = BroadPhase::Auto; ///< what searches for pairs; Auto before the first step
     double step_ms = 0.0;         ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
     std::vector<double> stage_ms; ///< one a stage, in the order of stage_names(); empty unless profiled
@@ -217,7 +217,7 @@ public:
     /// Whether the steps from now on send their poses; not at first.
     void keep_poses_coming(bool);
     /// Those of the newest finished step; empty before the first one arrives, and again while a step is done anew with
-    /// larger buffers.
+    /// larger buffers or with a search for pairs that it was not expected to need.
     PoseFrame newest_poses() const;
 
     // ---- the rest ----

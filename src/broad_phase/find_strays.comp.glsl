@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: whether its bounding box has left the one that the last search for pairs had of it. Then
 // pairs are searched for anew.
-// Reads: Poses, Velocities, Shapes, Aabbs.
+// Reads: Counters, Poses, Velocities, Shapes, Aabbs.
 // Writes: Counters.
 // Needs: nothing.
-// Overflow: none; after a step that did not fit nothing is searched for, as it will be done again with the pairs that it had.
+// Overflow: none; after a step that did not fit nothing is searched for, as it will be done again with the pairs that it
+// had.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One group does for a small world what find_strays, update_aabbs, measure_spread, choose_axis, write_sort_keys, the sort and
-// gather_aabbs do for a large one, with the same results: seven dispatches that wait for each other become one.
-// Reads: Poses, Velocities, Shapes.
+// One group does for a small world what find_strays, update_aabbs, measure_spread, choose_axis, write_sort_keys, the sort
+// and gather_aabbs do for a large one, with the same results: seven dispatches that wait for each other become one.
+// Reads: Counters, Poses, Velocities, Shapes.
 // Writes: Counters, Aabbs, SpreadSums, SweepAxes, SortKeys, SortValues, SortedAabbs.
 // Needs: nothing. At most k_island_bodies body slots.
-// Overflow: none.
+// Overflow: none; as of find_strays.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"

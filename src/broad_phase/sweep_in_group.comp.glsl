@@ -2,7 +2,7 @@
 // One group does for a small world what two launches of sweep_pairs and the scan between them do for a large one, with
 // the same results: all boxes fit into its shared memory.
 // One invocation is a body in sorted order, as in sweep_pairs.
-// Reads: SortedAabbs, SweepAxes, SortValues.
+// Reads: Counters, SortedAabbs, SweepAxes, SortValues.
 // Writes: PairCounts (scanned), Pairs, Counters.
 // Needs: a barrier after order_bodies. At most k_island_bodies body slots.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
