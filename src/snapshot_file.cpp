@@ -3,6 +3,7 @@
 // describes the format; the two files change together, with k_version.
 #include <talus/snapshot.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
