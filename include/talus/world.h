@@ -66,8 +66,8 @@ struct GlBuffers {
     /// 16 bytes a body: vec3 half extents (m), uint word with the shape in bits 0–7 (0 box, 1 sphere), the body's kind
     /// in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here), and bit 16 set for a sensor.
     std::uint32_t shapes = 0;
-    std::uint32_t aabbs =
-        0; ///< 32 bytes a body: vec3 lower (m), float, vec3 upper (m), float; of the last search for pairs
+    /// 32 bytes a body: vec3 lower (m), float, vec3 upper (m), float; of the last search for pairs, with its skin.
+    std::uint32_t aabbs = 0;
     /// 8 bytes a pair: uint body a, uint body b; their number is the word `pair_count_word` of `counters`.
     std::uint32_t pairs = 0;
     std::uint32_t manifolds = 0;      ///< 64 bytes a pair, see Manifold in src/state/records.shared.glsl

@@ -17,15 +17,14 @@ layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
+#include "broad_phase/box_now.glsl"
+
 void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count || counters[k_counter_did_not_fit] != 0u) return;
     if (counters[k_counter_search_count] != 0u) return; // it is known already
     bool strays = counters[k_counter_searched_slots] != parameters.body_count;
-    if (!strays) {
-        Aabb box = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
-        strays = !is_within(box, unpack(aabbs[body]));
-    }
+    if (!strays) strays = !is_within(box_now(body), unpack(aabbs[body]));
     if (strays) counters[k_counter_search_count] = parameters.body_count; // all write the same
 }

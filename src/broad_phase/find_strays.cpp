@@ -2,9 +2,8 @@
 // CPU twin of find_strays.comp.glsl.
 #include <atomic>
 
+#include "broad_phase/box_now.h"
 #include "broad_phase/broad_phase.h"
-#include "device/cpu/cpu_state.h"
-#include "state/formulas.h"
 
 namespace talus::engine {
 
@@ -15,9 +14,7 @@ static void find_strays_on_cpu(CpuState& state, const Launch&) {
     if (!strays) {
         state.parallel(body_count, [&](uint body) {
             if (strays.load(std::memory_order_relaxed)) return;
-            const Aabb box =
-                compute_aabb(state.poses[body], state.velocities[body], state.shapes[body], state.parameters);
-            if (!is_within(box, state.aabbs[body])) strays.store(true, std::memory_order_relaxed);
+            if (!is_within(box_now(state, body), state.aabbs[body])) strays.store(true, std::memory_order_relaxed);
         });
     }
     if (strays) state.counters[k_counter_search_count] = body_count;

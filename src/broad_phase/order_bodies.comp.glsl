@@ -39,10 +39,7 @@ Aabb load_aabb(uint body)
     return unpack(box);
 }
 
-Aabb box_now(uint body)
-{
-    return compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
-}
+#include "broad_phase/box_now.glsl"
 
 // A tree for each k_spread_group bodies, as in measure_spread, and one over their sums, as in choose_axis. What it
 // returns is right for the first invocation.

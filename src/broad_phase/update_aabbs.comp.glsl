@@ -15,10 +15,11 @@ layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) writeonly buffer Aabbs { AabbCells aabbs[]; };
 
+#include "broad_phase/box_now.glsl"
+
 void main()
 {
     uint body = item_index();
     if (body >= counters[k_counter_search_count]) return;
-    Aabb box = compute_aabb(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters);
-    aabbs[body] = pack(with_skin(box, parameters));
+    aabbs[body] = pack(with_skin(box_now(body), parameters));
 }

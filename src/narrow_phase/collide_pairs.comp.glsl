@@ -34,6 +34,7 @@ layout(std430) readonly buffer OldManifoldPoints { ManifoldPointCells old_manifo
 layout(std430) writeonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 
+#include "broad_phase/box_now.glsl"
 #include "narrow_phase/find_old_manifold.glsl"
 
 // All four points are loaded, whether they are there or not, so that no load waits for another.
@@ -87,13 +88,7 @@ void keep_manifold(uint pair_index, Pair pair, uint old_index)
 }
 
 // The search sees boxes with a skin.
-bool is_near(Pair pair)
-{
-    return is_candidate(compute_aabb(unpack(poses[pair.body_a]), unpack(velocities[pair.body_a]),
-                                     unpack(shapes[pair.body_a]), parameters),
-                        compute_aabb(unpack(poses[pair.body_b]), unpack(velocities[pair.body_b]),
-                                     unpack(shapes[pair.body_b]), parameters));
-}
+bool is_near(Pair pair) { return is_candidate(box_now(pair.body_a), box_now(pair.body_b)); }
 
 uint old_manifold_of(uint pair_index, Pair pair)
 {

@@ -2,6 +2,7 @@
 // CPU twin of collide_pairs.comp.glsl.
 #include <algorithm>
 
+#include "broad_phase/box_now.h"
 #include "device/cpu/cpu_state.h"
 #include "narrow_phase/narrow_phase.h"
 #include "narrow_phase/pair_table.h"
@@ -54,10 +55,7 @@ void keep_manifold(CpuState& state, uint pair_index, uint old_index) {
 
 /// The search sees boxes with a skin.
 bool is_near(const CpuState& state, const Pair& pair) {
-    const auto box_of = [&](uint body) {
-        return compute_aabb(state.poses[body], state.velocities[body], state.shapes[body], state.parameters);
-    };
-    return is_candidate(box_of(pair.body_a), box_of(pair.body_b));
+    return is_candidate(box_now(state, pair.body_a), box_now(state, pair.body_b));
 }
 
 uint old_manifold_of(const CpuState& state, uint pair_index, bool same_pairs) {
