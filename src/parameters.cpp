@@ -18,6 +18,12 @@ constexpr float k_baumgarte_slop = 0.005f;
 // What stays where it is may be so many times as fast as what goes somewhere, and still be said to rest.
 constexpr float k_jitter = 5.0f;
 
+// Contacts of a body that are more than so many share it, where the caller says nothing. A small world with such a body
+// is no longer solved by one work group, to which 62 colours are nothing. In a large world each colour of each pass is
+// a wait of all groups, and a hub's contacts cost as many as four.
+constexpr uint k_hub_contacts_of_small = 1000;
+constexpr uint k_hub_contacts_of_large = 32;
+
 // Loads are counted in weights; without gravity, in those of the Earth (m/s²).
 constexpr float k_standard_gravity = 9.81f;
 
@@ -32,6 +38,11 @@ Passes passes_of(const Settings& settings) {
 static uint rest_steps_of(const Settings& settings) {
     constexpr uint most = (~0u >> k_rest_shift) / 2; // a body counts to twice as many
     return std::clamp(static_cast<uint>(std::ceil(settings.sleep_time / settings.dt)), 1u, most);
+}
+
+static uint hub_contacts_of(const Settings& settings, const StepPlan& plan) {
+    if (settings.hub_contacts > 0) return settings.hub_contacts;
+    return plan.small ? k_hub_contacts_of_small : k_hub_contacts_of_large;
 }
 
 Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
@@ -67,7 +78,7 @@ Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
     p.table_size = plan.table_size;
     const bool coloured = settings.solve_order == SolveOrder::Coloured;
     p.usable_colours = coloured ? k_first_hub_colour : 0;
-    p.hub_contacts = coloured && !plan.bounces ? settings.hub_contacts : k_none;
+    p.hub_contacts = coloured && !plan.bounces ? hub_contacts_of(settings, plan) : k_none;
     p.hub_capacity = plan.hub_capacity;
     p.rest_steps = settings.sleeping ? rest_steps_of(settings) : 0;
     p.rest_distance = settings.sleep_speed * settings.dt * static_cast<float>(rest_steps_of(settings));

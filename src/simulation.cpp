@@ -130,7 +130,7 @@ Simulation::Simulation(const WorldOptions& options) : patience(k_first_patience)
     grow_everywhere(BufferId::SweepAxes, 1);
     grow_everywhere(BufferId::TreeGrids, 1);
     grow_everywhere(BufferId::HubChanges, 1);
-    grow_everywhere(BufferId::Arrivals, 2);
+    grow_everywhere(BufferId::Arrivals, k_arrival_words);
     grow_everywhere(BufferId::Rests, 1);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
@@ -281,6 +281,7 @@ StepPlan Simulation::plan_in_launches(const Population& population) const {
     now.one_island = population.some_kinematic;
     const bool one_group_each = now.small && plan.hub_capacity == 0;
     now.in_groups = (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
+    now.singles = plan.singles && now.has_groups();
     now.bounces = population.some_bounce;
     now.sleeping = settings.sleeping;
     now.waking = settings.sleeping ? population.waking : Waking::None;
@@ -297,6 +298,7 @@ StepPlan Simulation::plan_in_launches(const Population& population) const {
 
 StepPlan Simulation::plan_step(const Population& population) const {
     StepPlan now = plan_in_launches(population);
+    if (!now.small) now.colouring_groups = std::max(placement.resolution->resident_groups(assign_colours), 1u);
     if (!now.may_be_persistent()) return now;
     const uint groups = placement.resolution->resident_groups(solve_persistent);
     const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
@@ -419,9 +421,11 @@ void Simulation::collect_reports(Ticket ticket, std::span<const uint> counters) 
 void Simulation::follow_demand(std::span<const uint> counters) {
     const uint colours = counters[k_counter_launched_colours], substeps = counters[k_counter_launched_substeps];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
-    const bool overflow = counters[k_counter_launched_overflow] > 0;
+    const bool overflow = counters[k_counter_launched_overflow] > 0, singles = counters[k_counter_singles] > 0;
     plan.overflow = plan.overflow || overflow;
     window_overflow = window_overflow || overflow;
+    plan.singles = plan.singles || singles;
+    window_singles = window_singles || singles;
     const uint wanted_colours = std::min(colours + 1, k_first_hub_colour); // one to spare
     plan.colour_capacity = std::max(plan.colour_capacity, wanted_colours);
     plan.substep_capacity = std::max(plan.substep_capacity, substeps);
@@ -432,8 +436,9 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     plan.colour_capacity = window_colours;
     plan.substep_capacity = window_substeps;
     plan.overflow = window_overflow;
+    plan.singles = window_singles;
     if (window_hub_manifolds == 0) plan.hub_capacity = 0;
-    window_overflow = false;
+    window_overflow = window_singles = false;
     window_steps = window_colours = window_substeps = window_hub_manifolds = 0;
 }
 
@@ -471,9 +476,8 @@ void Simulation::redo(std::span<const uint> counters) {
                 "a body has so many others around it that this renderer, which ends long loops, does not search the "
                 "tree of the broad phase to the end; the device Cpu does");
         if ((reasons & k_fit_groups) != 0)
-            throw Error(
-                "this GPU did not run the work groups of solve_persistent side by side, though it did on trial, "
-                "so a step went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them wait for none");
+            throw Error("this GPU did not run the work groups of a launch side by side, though it did on trial, "
+                        "so a step went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them wait for none");
         if ((reasons & k_fit_pairs) != 0) make_room_for_pairs(pair_demand);
         if ((reasons & k_fit_hubs) != 0) reserve_hub_manifolds(with_headroom(hub_manifolds));
     } catch (const Error&) {

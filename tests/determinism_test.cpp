@@ -189,6 +189,25 @@ TEST_P(Paths, groups_of_islands_give_the_bits_of_many_launches) {
     }
 }
 
+TEST_P(Paths, a_work_group_for_a_single_island_gives_the_bits_of_many_launches) {
+    Settings settings;
+    settings.substeps = settings.max_substeps = 2;
+    for (const float restitution : {0.0f, 0.5f}) {
+        SCOPED_TRACE(restitution);
+        const std::vector<BodyDefinition> bodies = many_islands(restitution);
+        EngineRun singles(options_on(GetParam()), bodies, settings), launches(options_on(GetParam()), bodies, settings);
+        singles.simulation.reserve_pairs(8192);
+        launches.simulation.reserve_pairs(8192);
+        for (int i = 0; i < 4; ++i) {
+            singles.step_in_groups(restitution > 0.0f || i % 2 == 1, true);
+            launches.step_in_many_launches();
+            ASSERT_TRUE(singles.motion() == launches.motion()) << "step " << i;
+            EXPECT_EQ(singles.counter(engine::k_counter_singles), 1u) << "the pyramid";
+            EXPECT_EQ(singles.counter(engine::k_counter_launched_colours), 0u) << "nothing needs launches";
+        }
+    }
+}
+
 TEST_P(Paths, one_persistent_launch_gives_the_bits_of_many) {
     Settings settings;
     settings.substeps = settings.max_substeps = 2;

@@ -55,13 +55,14 @@ public:
     }
 
     /// A step as it is made on hardware, also on a renderer in software: a work group for each island of a small world,
-    /// and for each group of little ones in a large world. There the driver ends loops after 65,535 rounds, so few
-    /// sub-steps and contacts are all that a test may ask for.
-    void step_in_groups(bool bounces) {
+    /// and for each group of little ones in a large world; with singles also for each one of middling size. There the
+    /// driver ends loops after 65,535 rounds, so few sub-steps and contacts are all that a test may ask for.
+    void step_in_groups(bool bounces, bool singles = false) {
         engine::StepPlan plan = plan_for_any_demand();
         plan.in_groups = true;
         plan.persistent_groups = 0;
         plan.bounces = bounces;
+        plan.singles = singles && plan.has_groups();
         step_as(plan);
     }
 

@@ -63,9 +63,10 @@ struct Settings {
     float max_angular_speed = 200.0f;   ///< rad/s
     BroadPhase broad_phase = BroadPhase::Auto;     ///< how pairs are found
     SolveOrder solve_order = SolveOrder::Coloured; ///< in what order contacts are solved
-    std::uint32_t hub_contacts = 1000; ///< a body with more is solved by shares of its mass: fast, and softer
-    float sleep_speed = 0.01f; ///< m/s; a body rests where it gets nowhere faster on average, though it may jitter
-    float sleep_time = 0.5f;   ///< s; an island sleeps once all its bodies have rested for so long
+    std::uint32_t hub_contacts = 0; ///< a body with more is solved by shares of its mass: fast, and softer; 0: more
+                                    ///< than 1,000 in a world of up to 1,024 body slots, more than 32 in a larger one
+    float sleep_speed = 0.01f;      ///< m/s; a body rests where it gets nowhere faster on average, though it may jitter
+    float sleep_time = 0.5f;        ///< s; an island sleeps once all its bodies have rested for so long
     bool sleeping = false; ///< whether islands at rest sleep until something touches them: they cost next to nothing
 
     /// Whether every setting is the same.

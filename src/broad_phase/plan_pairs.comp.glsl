@@ -60,6 +60,7 @@ void main()
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;
     counters[k_counter_sleeping_manifolds] = 0u;
+    counters[k_counter_singles] = 0u;
     counters[k_counter_substep_demand] = parameters.least_substeps;
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);

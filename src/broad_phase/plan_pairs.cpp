@@ -53,6 +53,7 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_report_count] = 0;
     counters[k_counter_sleeping_bodies] = 0;
     counters[k_counter_sleeping_manifolds] = 0;
+    counters[k_counter_singles] = 0;
     counters[k_counter_substep_demand] = state.parameters.least_substeps;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     state.dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A barrier across all groups of a launch. OpenGL does not promise that groups which wait let others run, so a launch may
 // have only as many as are known to run side by side: Device::resident_groups, which asks count_resident_groups here.
-// Before this file the kernel declares Counters.
+// Before this file the kernel declares Counters, and defines uint meeting_groups(): how many groups meet, the first ones
+// of the launch.
 
-// 0: groups that have arrived; 1: what was counted
+// 0: groups that have arrived; 1: what was counted; 2: for the kernel
 layout(std430) coherent volatile buffer Arrivals { uint arrivals[]; };
 
 uint meetings = 0u;
@@ -11,7 +12,7 @@ uint meetings = 0u;
 // Some seconds: nobody waits for so long whose partners run at all.
 const uint k_most_polls = 1u << 22;
 
-bool all_have_arrived() { return int(arrivals[0] - meetings * gl_NumWorkGroups.x) >= 0; }
+bool all_have_arrived() { return int(arrivals[0] - meetings * meeting_groups()) >= 0; }
 
 // Lets all go on, in this meeting and in all later ones. The host hears of it.
 void give_up()

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// One group: colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its
-// bodies takes the smallest colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count
-// as bodies for most of their manifolds, and the loads on them.
-// Reads: Counters, Manifolds, Shapes.
-// Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours and Uncoloured as it goes.
-// Needs: a barrier after keep_colours.
+// Colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its bodies takes the
+// smallest colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count as bodies for most
+// of their manifolds, and the loads on them. As many groups as have manifolds wait for each other after each part of a
+// round; it is one where little is new.
+// args.x: 1 to count how many groups can run at a time instead.
+// Reads: Manifolds, Shapes.
+// Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours, Uncoloured and Arrivals
+// as it goes.
+// Needs: a barrier after keep_colours; no more groups than can run at a time; arrivals[0] is 0.
 // Overflow: a manifold with no colour left at its bodies joins the overflow set, and so does one of two hubs.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
@@ -13,18 +16,34 @@
 
 layout(local_size_x = 1024) in;
 
-layout(std430) buffer Counters { uint counters[]; };
+layout(std430) coherent buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) coherent buffer BodyColours { uint body_colours[]; };
 layout(std430) coherent buffer Uncoloured { uint uncoloured[]; };
-layout(std430) writeonly buffer Hubs { uint hubs[]; };
+layout(std430) coherent buffer Hubs { uint hubs[]; };
 
 #include "resolution/hub_load.glsl"
 
-shared uint left_over; // manifolds that wait for a later round
-shared bool has_hubs;
+shared uint left_over; // manifolds of this group that wait for a later round
+
+const uint k_all_left_over = 2u; // the word of Arrivals with those of all groups and rounds
+
+uint group_count; // that have manifolds
+uint meeting_groups() { return group_count; }
+
+#include "primitives/grid_barrier.glsl"
+
+void wait_for_workers()
+{
+    if (group_count > 1u) {
+        wait_for_all_groups();
+    } else {
+        groupMemoryBarrier();
+        barrier();
+    }
+}
 
 struct Edge {
     uint rank;
@@ -72,7 +91,7 @@ Edge load_edge(uint pair)
         edge.part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), edge.hub);
         bool carries = carries_hub(edge.part, body_colours[body_word(edge.hub, k_whole_load)], manifold.colour);
         usable = colours_below_hubs(carries, both_movable, manifold.colour,
-                                    body_colours[body_word(edge.hub, k_largest_load)], parameters);
+                                    largest_load(body_colours[body_word(edge.hub, k_largest_load)]), parameters);
     }
     edge.colour = first_free_colour(low, high, usable);
     edge.is_shared = edge.hub != k_none && edge.colour == k_overflow_colour;
@@ -83,23 +102,26 @@ Edge load_edge(uint pair)
     return edge;
 }
 
-void find_hub(uint body)
+bool makes_hub(uint body)
 {
-    uint low = body_colours[body_word(body, k_used_low)];
-    uint high = body_colours[body_word(body, k_used_high)];
-    uint new_edges = body_colours[body_word(body, k_new_edges)];
-    if (!is_hub(low, high, new_edges, parameters)) return;
-    has_hubs = true;
-    if (atomicOr(body_colours[body_word(body, k_hub_word)], k_is_hub) == 0u)
-        hubs[atomicAdd(counters[k_counter_hub_count], 1u)] = body;
+    return is_hub(body_colours[body_word(body, k_used_low)], body_colours[body_word(body, k_used_high)],
+                  body_colours[body_word(body, k_new_edges)], parameters);
 }
 
-void find_largest_load(uint pair)
+// Whether its bodies are hubs, and the largest load on each that is.
+void find_hubs(uint pair)
 {
-    uint hub = hub_of(manifolds[pair]);
-    if (hub == k_none) return;
-    // Not negative: ordered as the floats.
-    atomicMax(body_colours[body_word(hub, k_largest_load)], manifold_keys[pair]);
+    Manifold manifold = manifolds[pair];
+    bool of_a = makes_hub(manifold.body_a);
+    bool of_b = makes_hub(manifold.body_b);
+    uint load = of_a && of_b ? 0u : manifold_keys[pair]; // not negative: ordered as the floats
+    for (uint end = 0u; end < 2u; ++end) {
+        if (!(end == 0u ? of_a : of_b)) continue;
+        uint body = end == 0u ? manifold.body_a : manifold.body_b;
+        body_colours[body_word(body, k_hub_word)] = k_is_hub; // others write the same
+        if (atomicMax(body_colours[body_word(body, k_largest_load)], largest_load_word(load)) == 0u)
+            hubs[atomicAdd(counters[k_counter_hub_count], 1u)] = body;
+    }
 }
 
 void add_load(uint pair)
@@ -111,6 +133,15 @@ void add_load(uint pair)
     atomicAdd(body_colours[body_word(hub, k_whole_load)], part);
 }
 
+// That the edge has no share of a hub.
+void count_unshared(Edge edge)
+{
+    for (uint end = 0u; end < 2u; ++end) {
+        if (is_found_hub(edge.body[end])) atomicAdd(body_colours[body_word(edge.body[end], k_hub_word)], 1u);
+    }
+    if (edge.part > 0u) atomicAdd(body_colours[body_word(edge.hub, k_unshared_load)], edge.part);
+}
+
 void propose(uint entry, uint rank_word)
 {
     uint pair = uncoloured[entry];
@@ -119,6 +150,7 @@ void propose(uint entry, uint rank_word)
     if (edge.colour == k_overflow_colour) { // colours are never given back
         manifold_keys[pair] = k_overflow_colour;
         atomicAdd(counters[k_counter_overflow_count], 1u);
+        count_unshared(edge);
         uncoloured[entry] = k_none;
         return;
     }
@@ -148,55 +180,59 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
     for (uint end = 0u; end < 2u; ++end) {
         if (edge.obstructs[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (edge.colour & 31u);
     }
-    if (edge.is_shared) {
-        atomicAdd(body_colours[body_word(edge.hub, k_hub_word)], 1u);
-        atomicAdd(body_colours[body_word(edge.hub, k_shared_load)], edge.part);
+    if (!edge.is_shared) {
+        count_unshared(edge);
+        atomicMax(counters[k_counter_colour_demand], edge.colour + 1u);
     }
     manifold_keys[pair] = edge.colour;
-    if (edge.colour < k_first_hub_colour)
-        atomicMax(counters[k_counter_colour_demand], edge.colour + 1u);
-    else
-        atomicAdd(counters[k_counter_hub_manifolds], 1u);
     uncoloured[entry] = k_none;
+}
+
+void colour_in_rounds(uint first, uint stride, uint entry_count)
+{
+    uint me = gl_LocalInvocationID.x;
+    uint rank_word = k_best_rank;
+    uint known_left_over = arrivals[k_all_left_over];
+    for (bool done = false; !done;) {
+        if (me == 0u) left_over = 0u;
+        for (uint entry = first; entry < entry_count; entry += stride)
+            propose(entry, rank_word);
+        wait_for_workers();
+        uint next_rank_word = 2u * k_best_rank + 1u - rank_word;
+        for (uint entry = first; entry < entry_count; entry += stride)
+            decide(entry, rank_word, next_rank_word);
+        barrier();
+        if (me == 0u && left_over > 0u) atomicAdd(arrivals[k_all_left_over], left_over);
+        wait_for_workers();
+        uint all_left_over = arrivals[k_all_left_over];
+        done = all_left_over == known_left_over;
+        known_left_over = all_left_over;
+        rank_word = next_rank_word;
+    }
 }
 
 void main()
 {
-    uint me = gl_LocalInvocationID.x;
+    if (args.x == 1u) {
+        count_resident_groups();
+        return;
+    }
     uint entry_count = counters[k_counter_uncoloured];
-    if (me == 0u) has_hubs = false;
-    barrier();
-    for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x) {
-        find_hub(manifolds[uncoloured[entry]].body_a);
-        find_hub(manifolds[uncoloured[entry]].body_b);
-    }
-    groupMemoryBarrier();
-    barrier();
-    if (has_hubs) {
-        for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
-            find_largest_load(uncoloured[entry]);
-        groupMemoryBarrier();
-        barrier();
-        for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
+    group_count = min((entry_count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, gl_NumWorkGroups.x);
+    if (gl_WorkGroupID.x >= group_count) return;
+    uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint stride = group_count * gl_WorkGroupSize.x;
+    for (uint entry = first; entry < entry_count; entry += stride)
+        find_hubs(uncoloured[entry]);
+    wait_for_workers();
+    if (counters[k_counter_hub_count] > 0u) {
+        for (uint entry = first; entry < entry_count; entry += stride)
             add_load(uncoloured[entry]);
-        groupMemoryBarrier();
-        barrier();
+        wait_for_workers();
     }
-    uint rank_word = k_best_rank;
-    bool done = entry_count == 0u;
-    while (!done) {
-        if (me == 0u) left_over = 0u;
-        for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
-            propose(entry, rank_word);
-        groupMemoryBarrier();
-        barrier();
-        uint next_rank_word = 2u * k_best_rank + 1u - rank_word;
-        for (uint entry = me; entry < entry_count; entry += gl_WorkGroupSize.x)
-            decide(entry, rank_word, next_rank_word);
-        groupMemoryBarrier();
-        barrier();
-        done = left_over == 0u;
-        rank_word = next_rank_word;
-        barrier();
+    colour_in_rounds(first, stride, entry_count);
+    for (uint i = first; i < counters[k_counter_hub_count]; i += stride) {
+        uint shares = shares_of_hub(body_colours[body_word(hubs[i], k_new_edges)], body_colours[body_word(hubs[i], k_hub_word)]);
+        atomicAdd(counters[k_counter_hub_manifolds], shares);
     }
 }

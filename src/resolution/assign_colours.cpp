@@ -24,13 +24,19 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
     }
     std::ranges::sort(edges, std::greater{}, &Edge::rank);
     const auto word_of = [&](uint body, uint word) -> uint& { return state.body_colours[body_word(body, word)]; };
+    const auto makes_hub = [&](uint body) {
+        return is_hub(word_of(body, k_used_low), word_of(body, k_used_high), word_of(body, k_new_edges),
+                      state.parameters);
+    };
     for (const Edge& edge : edges) {
-        for (const uint body : {state.manifolds[edge.pair].body_a, state.manifolds[edge.pair].body_b}) {
-            if (word_of(body, k_hub_word) != 0 || !is_hub(word_of(body, k_used_low), word_of(body, k_used_high),
-                                                          word_of(body, k_new_edges), state.parameters))
-                continue;
+        const std::array bodies{state.manifolds[edge.pair].body_a, state.manifolds[edge.pair].body_b};
+        const uint load = std::ranges::all_of(bodies, makes_hub) ? 0 : state.manifold_keys[edge.pair];
+        for (const uint body : bodies) {
+            if (!makes_hub(body)) continue;
+            if (word_of(body, k_hub_word) == 0) state.hubs[state.counters[k_counter_hub_count]++] = body;
             word_of(body, k_hub_word) = k_is_hub;
-            state.hubs[state.counters[k_counter_hub_count]++] = body;
+            uint& largest = word_of(body, k_largest_load);
+            largest = max(largest, largest_load_word(load)); // not negative: ordered as the floats
         }
     }
 
@@ -42,12 +48,6 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
     const auto hub_count_of = [&](const Manifold& manifold) {
         return of_hub(manifold.body_a) + of_hub(manifold.body_b);
     };
-    for (const Edge& edge : edges) {
-        const Manifold& manifold = state.manifolds[edge.pair];
-        if (hub_count_of(manifold) != 1) continue;
-        uint& largest = word_of(hub_of(manifold), k_largest_load);
-        largest = max(largest, state.manifold_keys[edge.pair]); // not negative: ordered as the floats
-    }
     for (const Edge& edge : edges) {
         const uint hub = hub_of(state.manifolds[edge.pair]);
         if (hub_count_of(state.manifolds[edge.pair]) == 1)
@@ -67,7 +67,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         if (hub_count == 1)
             usable = colours_below_hubs(carries_hub(part, word_of(hub, k_whole_load), manifold.colour),
                                         std::ranges::all_of(bodies, movable), manifold.colour,
-                                        word_of(hub, k_largest_load), state.parameters);
+                                        largest_load(word_of(hub, k_largest_load)), state.parameters);
         uint low = 0, high = 0, high_of_other = 0;
         for (const uint body : bodies) {
             if (!movable(body)) continue;
@@ -76,21 +76,19 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
             if (!of_hub(body)) high_of_other = word_of(body, k_used_high);
         }
         uint colour = first_free_colour(low, high, usable);
-        const bool is_shared = hub_count == 1 && colour == k_overflow_colour;
-        if (is_shared) colour = first_free_hub_colour(high_of_other);
+        if (hub_count == 1 && colour == k_overflow_colour) colour = first_free_hub_colour(high_of_other);
+        const bool is_shared = is_hub_colour(colour);
         state.manifold_keys[edge.pair] = colour;
-        if (colour == k_overflow_colour) {
-            ++state.counters[k_counter_overflow_count];
-            continue;
-        }
         for (const uint body : bodies) {
-            if (is_shared && of_hub(body)) {
-                ++word_of(body, k_hub_word);
-                word_of(body, k_shared_load) += part;
-            } else if (movable(body))
+            if (!is_shared && of_hub(body)) ++word_of(body, k_hub_word);
+            const bool obstructs = movable(body) && !(is_shared && of_hub(body));
+            if (colour != k_overflow_colour && obstructs)
                 word_of(body, colour < 32 ? k_used_low : k_used_high) |= 1u << (colour & 31u);
         }
-        if (colour < k_first_hub_colour)
+        if (!is_shared && hub_count == 1) word_of(hub, k_unshared_load) += part;
+        if (colour == k_overflow_colour)
+            ++state.counters[k_counter_overflow_count];
+        else if (colour < k_first_hub_colour)
             state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
         else
             ++state.counters[k_counter_hub_manifolds];

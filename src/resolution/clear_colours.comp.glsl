@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: no colour in use, no rank seen, no hub.
+// One invocation is a body slot: no colour in use, no rank seen, no hub. Nobody has come to
+// assign_colours yet.
 // Reads: nothing.
-// Writes: BodyColours.
+// Writes: BodyColours, Arrivals.
 // Needs: nothing.
 // Overflow: none.
 #include "resolution/colouring.shared.glsl"
@@ -9,11 +10,13 @@
 layout(local_size_x = 64) in;
 
 layout(std430) writeonly buffer BodyColours { uint body_colours[]; };
+layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
 
 void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
+    if (body == 0u) arrivals[0] = 0u;
     for (uint word = 0u; word < k_body_words; ++word)
         body_colours[body_word(body, word)] = 0u;
 }

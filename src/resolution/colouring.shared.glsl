@@ -53,11 +53,11 @@ const uint k_used_low = 0u;  // colours 0-31 in use at the body, a bit each
 const uint k_used_high = 1u; // colours 32-63
 const uint k_best_rank = 2u; // highest rank of the uncoloured edges; two words that take turns, round by round
 const uint k_new_edges = 4u; // edges that had no colour at the start of the step
-const uint k_hub_word = 5u;  // k_is_hub, and the number of edges that have got a colour for hubs
+const uint k_hub_word = 5u;  // k_is_hub, and the number of edges that have no share: few, so that few count themselves
 // Of a hub.
-const uint k_largest_load = 6u; // of its edges (N s): the bits of a float
-const uint k_whole_load = 7u;   // of all its edges together, in parts (hub_load.shared.glsl)
-const uint k_shared_load = 8u;  // of those that have got a colour for hubs
+const uint k_largest_load = 6u;  // of its edges (N s): the bits of a float and 1
+const uint k_whole_load = 7u;    // of all its edges together, in parts (hub_load.shared.glsl)
+const uint k_unshared_load = 8u; // of those that have no share
 const uint k_body_words = 9u;
 
 inline uint body_word(uint body, uint word) { return k_body_words * body + word; }
@@ -100,7 +100,10 @@ inline uint colours_below_hubs(bool carries, bool both_movable, uint last_colour
     return lands || !both_movable ? min(p.usable_colours, k_colours_for_first) : 0u;
 }
 
-inline uint shares_of_hub(uint hub_word) { return hub_word & ~k_is_hub; }
+inline uint shares_of_hub(uint edge_count, uint hub_word) { return edge_count - (hub_word & ~k_is_hub); }
+
+inline uint largest_load_word(uint load) { return load + 1u; }
+inline uint largest_load(uint word) { return word - 1u; }
 
 // For BodyInertia::traits.
 inline uint hub_traits(uint hub_word) { return hub_word != 0u ? k_trait_hub : 0u; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its island's sub-steps and group, and its place among the bodies in the order of islands.
 // An island that sleeps has neither, and no sub-steps.
-// args.x: 1 where work groups solve islands.
+// args.x: 1 where work groups solve islands. args.y: 1 where also those do that solve a single one.
 // Reads: Islands, IslandSizes, IslandStarts (scanned).
 // Writes: Substeps, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
 // first; nothing that is made from it does.
@@ -33,12 +33,14 @@ void main()
         substeps[body] = 0u;
         return;
     }
-    uint group = args.x == 1u ? island_group(island_sizes[island], island_starts[island]) : k_launched;
+    uint size = island_sizes[island];
+    uint group = args.x == 1u ? island_group(size, island_starts[island], args.y == 1u) : k_launched;
     uint place = island_starts[island] + (atomicAdd(island_fill[island], 1u) & ~k_awake);
     island_groups[body] = group;
     island_places[body] = place;
     island_bodies[place] = body;
     uint of_island = substeps[island];
     if (body != island) substeps[body] = of_island;
+    if (body == island && is_single(size)) atomicAdd(counters[k_counter_singles], 1u);
     if (group == k_launched && body == island) atomicMax(counters[k_counter_launched_substeps], of_island);
 }

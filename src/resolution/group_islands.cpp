@@ -19,7 +19,9 @@ static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
         }
         const uint place = state.island_starts[island] + (state.island_fill[island]++ & ~k_awake);
         if (launch.args[0] == 1)
-            state.island_groups[body] = island_group(state.island_sizes[island], state.island_starts[island]);
+            state.island_groups[body] =
+                island_group(state.island_sizes[island], state.island_starts[island], launch.args[1] == 1);
+        if (body == island && is_single(state.island_sizes[island])) ++state.counters[k_counter_singles];
         state.island_places[body] = place;
         state.island_bodies[place] = body;
         state.substeps[body] = state.substeps[island];

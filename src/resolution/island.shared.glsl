@@ -15,10 +15,20 @@ const uint k_awake = 0x80000000u; // in IslandFill, beside a count of bodies
 
 const uint k_launched = 0u; // in place of a group: the island has too many bodies for one
 
-// Groups are counted from 1, so that what is launched comes first.
-inline uint island_group(uint size, uint start)
+// Whether an island with too many bodies to share a group has few enough for one of its own.
+inline bool is_single(uint size) { return size > k_most_grouped && size <= k_most_single; }
+
+const uint k_single = 0x80000000u; // in IslandGroups, beside the group of such an island
+inline uint single_group(uint group) { return group | k_single; }
+inline uint group_number(uint group) { return group & ~k_single; }
+
+// What IslandGroups says of an island's bodies. Groups are counted from 1, so that what is launched comes first. A single
+// island reaches beyond the window that follows the one it begins in. So none begins there, and it has that window's number.
+inline uint island_group(uint size, uint start, bool has_singles)
 {
-    return size <= k_most_grouped ? start / k_group_window + 1u : k_launched;
+    uint window = start / k_group_window;
+    if (size <= k_most_grouped) return window + 1u;
+    return has_singles && is_single(size) ? single_group(window + 2u) : k_launched;
 }
 
 inline uint count_groups(uint body_count) { return (body_count + k_group_window - 1u) / k_group_window; }

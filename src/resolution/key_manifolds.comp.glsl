@@ -34,7 +34,7 @@ void main()
         atomicAdd(counters[k_counter_sleeping_manifolds], 1u);
         return;
     }
-    uint group = island_groups[body];
+    uint group = group_number(island_groups[body]);
     manifold_keys[pair] = manifold_key(group, colour);
     if (group != k_launched) return;
     if (colour < k_first_hub_colour) atomicMax(counters[k_counter_launched_colours], colour + 1u);

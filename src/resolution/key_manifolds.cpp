@@ -22,7 +22,7 @@ static void key_manifolds_on_cpu(CpuState& state, const Launch&) {
             ++state.counters[k_counter_sleeping_manifolds];
             continue;
         }
-        const uint group = state.island_groups[body];
+        const uint group = group_number(state.island_groups[body]);
         key = manifold_key(group, colour);
         if (group != k_launched) continue;
         uint& colours = state.counters[k_counter_launched_colours];

@@ -37,6 +37,6 @@ void main()
     atomicMax(substeps[island], substeps[body]);
     if (island_fill[body] == k_awake && island_fill[island] != k_awake) island_fill[island] = k_awake; // others write the same
     bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
-    atomicAdd(island_sizes[island], is_hub ? 1u + k_most_grouped : 1u);
+    atomicAdd(island_sizes[island], is_hub ? 1u + k_most_single : 1u);
     atomicAdd(island_starts[island], 1u);
 }

@@ -14,7 +14,7 @@ static void measure_islands_on_cpu(CpuState& state, const Launch&) {
         state.substeps[island] = max(state.substeps[island], state.substeps[body]);
         if (state.island_fill[body] == k_awake) state.island_fill[island] = k_awake;
         const bool is_hub = state.body_colours[body_word(body, k_hub_word)] != 0;
-        state.island_sizes[island] += is_hub ? 1 + k_most_grouped : 1;
+        state.island_sizes[island] += is_hub ? 1 + k_most_single : 1;
         ++state.island_starts[island];
     }
 }

@@ -4,6 +4,8 @@
 // Before this file the kernel has load_velocity and store_velocity as for contact_passes.glsl, declares ColourOffsets,
 // Inertias and HubChanges, and defines HubChange load_change(uint i).
 
+const uint k_hub_keeper = k_hub_group - 1u; // the invocation that moves a hub
+
 shared HubChange hub_sums[k_hub_group];
 
 // In uniform control flow.
@@ -26,5 +28,6 @@ void move_hub_by_colour(uint hub, uint colour, uint substep)
         if (me < half_count) hub_sums[me] = add_changes(hub_sums[me], hub_sums[me + half_count]);
         barrier();
     }
-    if (me == 0u) store_velocity(hub, move_hub(load_velocity(hub), hub_sums[0]));
+    if (me == k_hub_keeper) store_velocity(hub, move_hub(load_velocity(hub), hub_sums[0]));
+    barrier(); // before the sums are of another hub
 }

@@ -35,8 +35,9 @@ float share_of_contact(Manifold manifold, uint pair, uint colour)
     bool of_a = (unpack(inertias[manifold.body_a]).traits & k_trait_hub) != 0u;
     uint hub = of_a ? manifold.body_a : manifold.body_b;
     uint part = part_of_load(manifold, load_on(pair, manifold.point_count), hub);
-    return share_of_hub(part, body_colours[body_word(hub, k_shared_load)],
-                        shares_of_hub(body_colours[body_word(hub, k_hub_word)]));
+    uint shared_load = body_colours[body_word(hub, k_whole_load)] - body_colours[body_word(hub, k_unshared_load)];
+    return share_of_hub(part, shared_load,
+                        shares_of_hub(body_colours[body_word(hub, k_new_edges)], body_colours[body_word(hub, k_hub_word)]));
 }
 
 void main()

@@ -12,9 +12,9 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
     const Manifold& manifold = state.manifolds[pair];
     const bool of_a = (state.inertias[manifold.body_a].traits & k_trait_hub) != 0;
     const uint hub = of_a ? manifold.body_a : manifold.body_b;
+    const auto word = [&](uint index) { return state.body_colours[body_word(hub, index)]; };
     return share_of_hub(part_of_load(state, pair, load_on(state, pair), hub),
-                        state.body_colours[body_word(hub, k_shared_load)],
-                        shares_of_hub(state.body_colours[body_word(hub, k_hub_word)]));
+                        word(k_whole_load) - word(k_unshared_load), shares_of_hub(word(k_new_edges), word(k_hub_word)));
 }
 
 static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {

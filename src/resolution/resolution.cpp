@@ -23,7 +23,7 @@ static void find_island_groups(Device& device, const StepPlan& plan) {
     device.run({.kernel = join_islands, .slot = k_dispatch_pairs});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_body_count, k_none);
-    device.run({.kernel = group_islands, .items = plan.body_count, .args = {plan.has_groups()}});
+    device.run({.kernel = group_islands, .items = plan.body_count, .args = {plan.has_groups(), plan.singles}});
     device.run({.kernel = key_manifolds, .slot = k_dispatch_pairs});
 }
 
@@ -36,7 +36,7 @@ void wake(Device& device, const StepPlan& plan) {
 void constraint_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_colours, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
-    device.run({.kernel = assign_colours, .items = 1});
+    device.run({.kernel = assign_colours, .items = plan.colouring_groups});
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
     if (plan.measures_islands()) find_island_groups(device, plan);
     sort_by_key(device, {.keys = BufferId::ManifoldKeys,
@@ -76,6 +76,9 @@ void solve(Device& device, const StepPlan& plan) {
         const Kernel& of_small = plan.bounces ? solve_bouncing_islands : solve_islands;
         const Kernel& of_large = plan.bounces ? solve_bouncing_groups : solve_island_groups;
         device.run({.kernel = plan.small ? of_small : of_large, .slot = k_dispatch_islands});
+        if (plan.singles)
+            device.run(
+                {.kernel = plan.bounces ? solve_bouncing_singles : solve_single_islands, .slot = k_dispatch_islands});
     }
     if (!plan.needs_launches() || plan.substep_capacity == 0) return;
     if (plan.persistent_groups > 0) {

@@ -41,6 +41,8 @@ extern const Kernel solve_islands;
 extern const Kernel solve_bouncing_islands;
 extern const Kernel solve_island_groups;
 extern const Kernel solve_bouncing_groups;
+extern const Kernel solve_single_islands;
+extern const Kernel solve_bouncing_singles;
 extern const Kernel solve_persistent;
 extern const Kernel store_contact_impulses;
 extern const Kernel wake_bodies;

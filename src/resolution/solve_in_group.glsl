@@ -143,6 +143,7 @@ void integrate_own_bodies(uint substep)
 }
 
 void finish_colour(uint colour, uint substep) {}
+void wait_for_finish() {}
 
 #include "resolution/solve_substeps.glsl"
 
@@ -164,10 +165,8 @@ void solve_group(uint group)
         if (k_deltas_have_room) put_delta(slot_of(body), no_delta());
         atomicMax(most_substeps, unpack(inertias[body]).substeps);
     }
-    if (parameters.rest_steps > 0u) {
-        barrier();
-        if (most_substeps == 0u) return; // nobody is awake here
-    }
+    barrier();
+    if (most_substeps == 0u) return; // nobody is here, or awake
     find_colours(group);
     barrier();
     solve_substeps(most_substeps);

@@ -5,7 +5,7 @@
 
 namespace talus::engine {
 
-void solve_island_groups_on_cpu(CpuState& state, const Launch&) {
+void solve_groups(CpuState& state, const std::function<IslandPlaces(uint group)>& places_of) {
     const uint body_count = state.parameters.body_count, group_count = count_groups(body_count);
     const uint* const keys = state.manifold_keys.data;
     const uint* const end = keys + state.counters[k_counter_manifold_count];
@@ -15,19 +15,28 @@ void solve_island_groups_on_cpu(CpuState& state, const Launch&) {
     state.parallel(
         group_count,
         [&](uint i) {
+            const uint group = i + 1;
+            const IslandPlaces places = places_of(group);
             IslandWork work;
-            const uint first_place = i * k_group_window;
-            for (uint place = first_place; place < min(first_place + k_group_room, body_count); ++place) {
+            for (uint place = places.first; place < places.end; ++place) {
                 const uint body = state.island_bodies[place];
-                if (body < body_count && state.island_places[body] == place && state.island_groups[body] == i + 1)
+                if (body < body_count && state.island_places[body] == place &&
+                    state.island_groups[body] == places.group)
                     work.bodies.push_back(body);
             }
             if (work.bodies.empty()) return;
-            for (uint index = first_of(i + 1), last = first_of(i + 2); index < last; ++index)
+            for (uint index = first_of(group), last = first_of(group + 1); index < last; ++index)
                 work.add_constraint(state, index);
             solve_together(state, work);
         },
         2);
+}
+
+void solve_island_groups_on_cpu(CpuState& state, const Launch&) {
+    solve_groups(state, [&](uint group) {
+        const uint first = (group - 1) * k_group_window;
+        return IslandPlaces{group, first, min(first + k_group_room, state.parameters.body_count)};
+    });
 }
 
 const Kernel solve_island_groups{"resolution/solve_island_groups", solve_island_groups_on_cpu, 1};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "device/cpu/cpu_state.h"
@@ -23,7 +24,18 @@ struct IslandWork {
 /// All sub-steps. Islands may have different numbers of them.
 void solve_together(CpuState& state, const IslandWork&);
 
+/// Where the bodies of a group stand in the order of islands, and what IslandGroups says of them; by default there are
+/// none.
+struct IslandPlaces {
+    uint group = k_launched;
+    uint first = 0, end = 0;
+};
+
+/// Each group of islands in a large world, those that are solved together in it.
+void solve_groups(CpuState& state, const std::function<IslandPlaces(uint group)>& places_of);
+
 void solve_islands_on_cpu(CpuState& state, const Launch& launch);
 void solve_island_groups_on_cpu(CpuState& state, const Launch& launch);
+void solve_single_islands_on_cpu(CpuState& state, const Launch& launch);
 
 } // namespace talus::engine

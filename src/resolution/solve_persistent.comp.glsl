@@ -20,11 +20,14 @@
 
 layout(local_size_x = 384) in; // fewer leave waits unfilled; more have too few registers
 
-layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
+layout(std430) readonly buffer ColourOffsets { uint stored_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Hubs { uint hubs[]; };
 layout(std430) coherent buffer HubChanges { HubChange hub_changes[]; };
 layout(std430) coherent buffer Velocities { BodyVelocityCells velocities[]; };
+
+// As in ColourOffsets: a load for each colour that is not in use took as long as the passes did, where there are hubs.
+shared uint colour_offsets[k_max_colours + 2u];
 
 uint slot_of(uint body) { return body; }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
@@ -59,6 +62,8 @@ HubChange load_change(uint i)
 #include "resolution/contact_passes.glsl"
 #include "resolution/body_passes.glsl"
 #include "resolution/move_hubs.glsl"
+uint meeting_groups() { return gl_NumWorkGroups.x; }
+
 #include "primitives/grid_barrier.glsl"
 
 // Neighbours in the order of manifolds are 32 by 32 in different groups, as there are often fewer of a colour than
@@ -72,20 +77,52 @@ uint worker()
 }
 uint worker_count() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x; }
 
-void wait_for_workers() { wait_for_all_groups(); }
+// Groups are adding up what contacts have done to hubs: nobody else may read a hub's velocity before the next wait.
+bool hubs_move = false;
+
+void wait_for_workers()
+{
+    wait_for_all_groups();
+    hubs_move = false;
+}
+
+void wait_for_finish()
+{
+    if (hubs_move) wait_for_workers();
+}
 
 void finish_colour(uint colour, uint substep)
 {
     if (colour < k_first_hub_colour || colour >= k_max_colours) return;
     for (uint i = gl_WorkGroupID.x; i < counters[k_counter_hub_count]; i += gl_NumWorkGroups.x)
         move_hub_by_colour(hubs[i], colour, substep);
-    wait_for_all_groups();
+    hubs_move = true;
+}
+
+// A hub is its keeper's, which has moved it and need not wait to see that.
+bool is_workers(uint body)
+{
+    BodyInertia inertia = unpack(inertias[body]);
+    return is_launched(inertia) && (inertia.traits & k_trait_hub) == 0u;
 }
 
 void integrate_own_bodies(uint substep)
 {
-    for (uint body = worker(); body < parameters.body_count; body += worker_count()) {
-        if (is_launched(unpack(inertias[body]))) integrate_body(body, substep);
+    uint hub = gl_LocalInvocationID.x == k_hub_keeper ? gl_WorkGroupID.x : counters[k_counter_hub_count];
+    uint next = worker();
+    while (hub < counters[k_counter_hub_count] || next < parameters.body_count) {
+        uint body;
+        bool is_own;
+        if (hub < counters[k_counter_hub_count]) {
+            body = hubs[hub];
+            is_own = is_launched(unpack(inertias[body]));
+            hub += gl_NumWorkGroups.x;
+        } else {
+            body = next;
+            is_own = is_workers(body);
+            next += worker_count();
+        }
+        if (is_own) integrate_body(body, substep);
     }
 }
 
@@ -93,8 +130,13 @@ void integrate_own_bodies(uint substep)
 
 void main()
 {
-    if (args.x == 1u)
+    if (args.x == 1u) {
         count_resident_groups();
-    else if (counters[k_counter_did_not_fit] == 0u)
-        solve_substeps(max(counters[k_counter_launched_substeps], parameters.least_substeps));
+        return;
+    }
+    if (counters[k_counter_did_not_fit] != 0u) return;
+    for (uint i = gl_LocalInvocationID.x; i < k_max_colours + 2u; i += gl_WorkGroupSize.x)
+        colour_offsets[i] = stored_offsets[i];
+    barrier();
+    solve_substeps(max(counters[k_counter_launched_substeps], parameters.least_substeps));
 }

@@ -9,6 +9,7 @@
 namespace talus::engine {
 
 static void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
+    if (state.counters[k_counter_did_not_fit] != 0) return;
     const Parameters& p = state.parameters;
     const auto over_contacts = [&](ContactPass pass, uint substep) {
         for (uint colour = 0; colour <= k_overflow_colour; ++colour) {

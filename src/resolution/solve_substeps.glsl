@@ -10,11 +10,13 @@
 //   uint worker(), uint worker_count(): which of the workers this is, and of how many
 //   void wait_for_workers(): until all are here, and what they have written is seen
 //   void finish_colour(uint colour, uint substep): what follows a colour's pass, once all are here
+//   void wait_for_finish(): until all see what it has changed
 //   void integrate_own_bodies(uint substep): integrate_body for the worker's bodies
 
-uint end_index;    // of the manifolds with a colour; the overflow set follows
-uint own_end;      // of those that the worker may have: the overflow set is the first one's
-uint first_index;  // the worker's first manifold; k_none: it has none
+uint end_index;     // of the manifolds with a colour; the overflow set follows
+uint own_end;       // of those that the worker may have: the overflow set is the first one's
+uint colours_end;   // of the colours in use, but for those of hubs
+uint first_index;   // the worker's first manifold; k_none: it has none
 uint index_in_hand; // k_none: none
 
 uint if_own(uint index) { return index < own_end ? index : k_none; }
@@ -29,8 +31,26 @@ void find_own_manifolds()
 {
     end_index = colour_offsets[k_overflow_colour];
     own_end = worker() == 0u ? colour_offsets[k_overflow_colour + 1u] : end_index;
+    colours_end = 0u;
+    while (colour_offsets[colours_end] < colour_offsets[k_first_hub_colour])
+        ++colours_end;
     first_index = if_own(min(colour_offsets[0] + worker(), end_index));
     index_in_hand = k_none;
+}
+
+// Whether the manifold has had all its sub-steps. All have the least number, so that early on none is asked.
+bool is_done(uint index, uint substep)
+{
+    if (substep < parameters.least_substeps) return false;
+    return substep >= (index == index_in_hand ? substeps : cell_in_block(constraints, index, 5u).w);
+}
+
+// The worker's first manifold from this one on that has the sub-step.
+uint first_with(uint substep, uint index)
+{
+    while (index != k_none && is_done(index, substep))
+        index = next_own(index);
+    return index;
 }
 
 void take_in_hand(uint index)
@@ -43,21 +63,23 @@ void take_in_hand(uint index)
 
 void pass_over_contacts(uint pass, uint substep)
 {
-    uint index = first_index; // the next manifold to pass over
-    bool is_ready = false;    // it is in hand, and its target is known
+    uint first = first_with(substep, first_index);
+    uint index = first;    // the next manifold to pass over
+    bool is_ready = false; // it is in hand, and its target is known
     PassTarget target;
     uint begin = colour_offsets[0];
     uint all_end = colour_offsets[k_overflow_colour + 1u];
-    for (uint colour = 0u; begin < all_end; ++colour) {
+    for (uint colour = 0u; begin < all_end; colour = colour == colours_end ? k_first_hub_colour + 1u : colour + 1u) {
         // Before the first colour there are none to pass over: all make ready.
         uint end = colour == 0u ? begin : colour_offsets[colour];
+        if (begin < end) wait_for_finish();
         while (!is_ready || index < end) {
             if (is_ready) {
-                if (substep < substeps) pass_over_constraint(pass, index, target);
-                index = next_own(index);
+                pass_over_constraint(pass, index, target);
+                index = first_with(substep, next_own(index));
             }
             is_ready = true;
-            take_in_hand(index == k_none ? first_index : index); // the next pass begins with the first
+            take_in_hand(index == k_none ? first : index); // the next pass begins with the first
             if (pass != k_warm_start && index != k_none) target = target_of_pass(pass);
         }
         if (begin == end) continue;

@@ -83,7 +83,8 @@ const uint k_counter_found_pairs = 21u;    // by the search
 const uint k_counter_searched_slots = 22u; // body slots of the last search whose pairs there was room for
 const uint k_counter_pairs_changed = 23u;  // 1 where pairs are other ones than OldManifolds has
 const uint k_counter_searched = 24u;       // 1 where this step had to search
-const uint k_counter_words = 25u;
+const uint k_counter_singles = 25u; // islands with too many bodies to share a work group, and few enough for one of their own
+const uint k_counter_words = 26u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -115,6 +116,7 @@ const uint k_group_size = 64u;   // invocations a group of kernels that treat on
 const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
+const uint k_arrival_words = 3u; // of Arrivals, see primitives/grid_barrier.glsl
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
 const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island
 // In a larger world a work group solves several islands: those that begin within a window of so many bodies, in the order
@@ -122,3 +124,4 @@ const uint k_island_bodies = 1024u; // body slots of a world that is solved isla
 const uint k_group_window = 48u;
 const uint k_most_grouped = 208u; // bodies of an island that a group can solve
 const uint k_group_room = k_group_window + k_most_grouped; // bodies
+const uint k_most_single = k_island_bodies; // bodies of an island that has a group of its own

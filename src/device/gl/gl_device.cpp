@@ -100,7 +100,7 @@ uint GlDevice::resident_groups(const Kernel& kernel) {
     if (!loops_freely() || most_resident_groups_ == 0u) return 0;
     const auto found = resident_groups_.find(&kernel);
     if (found != resident_groups_.end()) return found->second;
-    std::array<uint, 2> arrivals{};
+    std::array<uint, k_arrival_words> arrivals{};
     write(BufferId::Arrivals, 0, std::as_bytes(std::span(arrivals)));
     run({.kernel = kernel, .items = k_trial_groups * kernel.items_a_group, .args = {1}});
     read(std::array{ReadRequest{BufferId::Arrivals, sizeof arrivals, arrivals.data()}});
