@@ -102,7 +102,8 @@ void Simulation::restore(const SavedState& saved) {
     finished_count = saved.report.step;
     newest_report = saved.report;
     solved_count = static_cast<uint>(constraints.size());
-    still_steps = 0;
+    pairs_last.begin_anew();
+    graph_lasts.begin_anew();
     settings.broad_phase = saved.settings.broad_phase; // so that no search is due which was none before
     newest_report.growths = growths;
     newest_has_poses = false;

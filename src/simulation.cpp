@@ -30,12 +30,6 @@ constexpr uint k_most_substeps_of_large = 32;
 // Manifolds and iterations an invocation of the persistent launch: with more, launches for each colour are long enough
 // to be worth it, and all in one might be too long for a watchdog.
 constexpr uint k_most_manifolds_each = 64;
-// After so many steps in a row that did not have to search for pairs the next ones get no launches for it. Each time
-// that one of them has to search after all, and is done again, twice as many are asked for, up to the most; after so
-// many without a search the first number holds again.
-constexpr uint k_first_patience = 8;
-constexpr uint k_most_patience = 256;
-constexpr uint k_steps_of_trust = 512;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
@@ -86,13 +80,29 @@ bool moves_bodies(const BodyChanges& changes) {
     });
 }
 
+/// Whether the two put the same manifolds into the same order, if the bodies and manifolds are the same.
+bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
+    return plan.body_count == other.body_count && plan.one_island == other.one_island &&
+           plan.in_groups == other.in_groups && plan.singles == other.singles;
+}
+
 uint with_headroom(uint demand) {
     return demand + demand / 4;
 }
 
 } // namespace
 
-Simulation::Simulation(const WorldOptions& options) : patience(k_first_patience) {
+void Trust::note(bool needed) {
+    calm_steps = needed ? 0 : calm_steps + 1;
+    if (calm_steps == k_steps_of_trust) patience = k_first_patience;
+}
+
+void Trust::was_wrong() {
+    begin_anew();
+    patience = std::min(2 * patience, k_most_patience);
+}
+
+Simulation::Simulation(const WorldOptions& options) {
     DeviceKind kind = options.device;
     std::string why = "asked for";
     if (kind == DeviceKind::Auto) {
@@ -221,6 +231,7 @@ void Simulation::write_behind_steps(BufferId buffer, std::size_t offset, std::sp
 void Simulation::set_settings(const Settings& wanted) {
     if (wanted.sleeping) grow_everywhere(BufferId::Rests, body_capacity);
     if (wanted.broad_phase != settings.broad_phase) search_anew();
+    graph_lasts.begin_anew();
     settings = wanted;
 }
 
@@ -228,7 +239,8 @@ void Simulation::search_anew() {
     static_assert(k_counter_pairs_changed == k_counter_searched_slots + 1);
     constexpr std::array<uint, 2> none{};
     write_behind_steps(BufferId::Counters, k_counter_searched_slots * sizeof(uint), std::as_bytes(std::span(none)));
-    still_steps = 0;
+    pairs_last.begin_anew();
+    graph_lasts.begin_anew();
 }
 
 void Simulation::step(const Population& population, bool with_poses, BodyChanges changes) {
@@ -249,6 +261,7 @@ void Simulation::change_bodies(const Population& population, const BodyChanges& 
 
 void Simulation::apply_now(const Population& population, const BodyChanges& changes) {
     write_body_count(population.slots);
+    graph_lasts.begin_anew();
     for (Device* device : {gpu.get(), cpu.get()}) {
         if (device == nullptr) continue;
         apply_changes(*device, changes);
@@ -329,7 +342,11 @@ void Simulation::prepare_kernels(const Population& population) {
 void Simulation::enqueue(Pending entry) {
     prepare_kernels(entry.population);
     StepPlan now = plan_step(entry.population);
-    now.searches = still_steps < patience || moves_bodies(entry.changes) || entry.population.slots != enqueued_slots;
+    const bool other_bodies = entry.population.slots != enqueued_slots;
+    now.searches = !pairs_last.holds() || moves_bodies(entry.changes) || other_bodies;
+    now.makes_graph = !graph_lasts.holds() || now.searches || !entry.changes.empty() || settings.sleeping ||
+                      placement.hybrid() || !has_the_graph_of(now, newest_plan);
+    newest_plan = now;
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);
@@ -363,8 +380,8 @@ void Simulation::finish_oldest() {
         return;
     }
     ++finished_count;
-    still_steps = counters[k_counter_searched] != 0 ? 0 : still_steps + 1;
-    if (still_steps == k_steps_of_trust) patience = k_first_patience;
+    pairs_last.note(counters[k_counter_searched] != 0);
+    graph_lasts.note(counters[k_counter_graph_was_due] != 0);
     newest_ticket = done.ticket;
     newest_has_poses = done.with_poses;
     newest_report.dispatches = static_cast<std::uint32_t>(done.launches);
@@ -454,9 +471,11 @@ void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
-    still_steps = 0;
-    if ((reasons & k_fit_strays) != 0) patience = std::min(2 * patience, k_most_patience);
-    if ((reasons & ~k_fit_strays) != 0) {
+    if ((reasons & ~k_fit_graph) != 0) pairs_last.begin_anew();
+    graph_lasts.begin_anew();
+    if ((reasons & k_fit_strays) != 0) pairs_last.was_wrong();
+    if ((reasons & k_fit_graph) != 0) graph_lasts.was_wrong();
+    if ((reasons & ~(k_fit_strays | k_fit_graph)) != 0) {
         log(LogLevel::Info, what_did_not_fit(counters));
         ++growths;
     }

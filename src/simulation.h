@@ -15,6 +15,24 @@ namespace talus::engine {
 
 struct SavedState;
 
+/// Some launches are left out once so many steps in a row did not need them. Each time that one needs them after all,
+/// and is done again, twice as many are asked for; after many without need the first number holds again.
+class Trust {
+public:
+    bool holds() const { return calm_steps >= patience; }
+    void note(bool needed);
+    void begin_anew() { calm_steps = 0; }
+    void was_wrong();
+
+private:
+    static constexpr uint k_first_patience =
+        8; // as many as can be on their way: what they say may be of other settings
+    static constexpr uint k_most_patience = 256, k_steps_of_trust = 512;
+    static_assert(k_first_patience >= k_ring_size);
+    uint calm_steps = 0;
+    uint patience = k_first_patience;
+};
+
 class Simulation {
 public:
     /// Throws Error where the device cannot be had.
@@ -128,8 +146,9 @@ private:
     std::deque<Pending> pending;
     std::uint64_t finished_count = 0;
     std::uint32_t growths = 0;
-    uint still_steps = 0;    ///< in a row that did not have to search for pairs
-    uint patience;           ///< so many of them, and the next ones get no launches for the search
+    Trust pairs_last;        ///< that a step need not search for pairs
+    Trust graph_lasts;       ///< that a step need not make its constraint graph
+    StepPlan newest_plan;    ///< of the step that was enqueued last
     uint window_steps = 0;   ///< since the demand was last looked at
     uint window_colours = 0; ///< most colours since
     uint window_substeps = 0;

@@ -23,6 +23,7 @@ struct StepPlan {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
     uint body_count = 0;        ///< body slots in use
     bool searches = true;       ///< the search for pairs gets launches, which it may turn out not to need
+    bool makes_graph = true;    ///< the constraint graph gets launches; without them it has to be the last step's
     uint pair_capacity = 0;     ///< room in the buffers that have a record a pair
     uint table_size = 0;        ///< slots of PairTable
     uint colour_capacity = 0;   ///< colours that get launches

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The constraint graph: no two contacts of one colour share a body that can be pushed, the colours are the same on
 // every device, they are kept from step to step, and bodies with more contacts than there are colours are solved all
-// the same: as hubs, or in the overflow set.
+// the same: as hubs, or in the overflow set. A graph that lasts over several steps is the one that each would make.
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -223,6 +224,63 @@ TEST_P(Colouring, in_sequential_order_there_are_no_colours) {
 }
 
 TALUS_ON_EVERY_DEVICE(Colouring);
+
+// ---- a constraint graph that lasts ----
+
+/// Towers and a row of boxes on the ground, and one box high above that falls into them later.
+std::vector<BodyDefinition> bodies_that_stand(bool large) {
+    std::vector<BodyDefinition> bodies{ground()};
+    for (int i = 0; i < (large ? 360 : 12); ++i)
+        for (int level = 0; level < 3; ++level)
+            bodies.push_back(box_at({1.5f * static_cast<float>(i % 20), 0.5f + static_cast<float>(level),
+                                     1.5f * static_cast<float>(i / 20)}));
+    bodies.push_back(box_at({0.3f, 7.0f, 0.2f}));
+    return bodies;
+}
+
+class Graphs : public OnDevice {};
+
+TEST_P(Graphs, that_last_give_the_bits_of_new_ones) {
+    for (const bool large : {false, true}) {
+        SCOPED_TRACE(large ? "a large world" : "a small world");
+        Settings settings;
+        if (large) settings.substeps = settings.max_substeps = 2; // renderers in software end long loops
+        World lasting = make_world(settings), in_one_go = make_world(settings), made_anew = make_world(settings);
+        std::vector<BodyId> ids;
+        for (World* world : {&lasting, &in_one_go, &made_anew})
+            ids = world->add(bodies_that_stand(large));
+        lasting.step();
+        made_anew.step();
+        in_one_go.step();
+        constexpr int steps = 170;
+        for (int i = 0; i < steps; ++i) {
+            if (i == 60) {
+                for (World* world : {&lasting, &made_anew})
+                    world->set_velocity(ids[5], {{0.5f, 0.0f, 0.0f}, {}});
+            }
+            lasting.step();
+            made_anew.set_settings(settings);
+            made_anew.step();
+            ASSERT_EQ(lasting.state_hash(), made_anew.state_hash()) << "step " << i;
+            const StepReport &one = lasting.report(), &other = made_anew.report();
+            EXPECT_EQ(
+                std::tie(one.manifolds, one.contacts, one.colours, one.substeps, one.overflow_manifolds),
+                std::tie(other.manifolds, other.contacts, other.colours, other.substeps, other.overflow_manifolds))
+                << "step " << i;
+        }
+        EXPECT_EQ(lasting.report().growths, made_anew.report().growths);
+        if (GetParam() != DeviceKind::Hybrid) // a graph takes six launches at least
+            EXPECT_LE(lasting.report().dispatches + 5, made_anew.report().dispatches);
+
+        in_one_go.step(60); // steps are on their way when one of them turns out to have to make its graph
+        in_one_go.set_velocity(ids[5], {{0.5f, 0.0f, 0.0f}, {}});
+        in_one_go.step(steps - 60);
+        EXPECT_EQ(in_one_go.state_hash(), lasting.state_hash());
+        EXPECT_EQ(in_one_go.report().contacts, lasting.report().contacts);
+    }
+}
+
+TALUS_ON_EVERY_DEVICE(Graphs);
 
 } // namespace
 } // namespace talus::tests

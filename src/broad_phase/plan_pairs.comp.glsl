@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation: how many pairs there are, whether they fit, and the launches that treat them.
-// args.x: 1 where the search had launches.
+// args.x: 1 where the search had launches. args.y: 1 where the constraint graph has them; otherwise it is the last step's,
+// and so are its counts.
 // Reads: Counters.
 // Writes: Counters, Dispatches.
 // Needs: a barrier after the scan of the pair counts.
@@ -35,6 +36,23 @@ void take_pairs(bool due)
     }
 }
 
+void begin_graph()
+{
+    counters[k_counter_manifold_count] = 0u;
+    counters[k_counter_contact_count] = 0u;
+    counters[k_counter_colour_demand] = 0u;
+    counters[k_counter_overflow_count] = 0u;
+    counters[k_counter_uncoloured] = 0u;
+    counters[k_counter_hub_count] = 0u;
+    counters[k_counter_hub_manifolds] = 0u;
+    counters[k_counter_launched_colours] = 0u;
+    counters[k_counter_launched_substeps] = 0u;
+    counters[k_counter_launched_overflow] = 0u;
+    counters[k_counter_sleeping_manifolds] = 0u;
+    counters[k_counter_singles] = 0u;
+    counters[k_counter_substep_demand] = parameters.least_substeps;
+}
+
 void main()
 {
     bool due = counters[k_counter_search_count] != 0u;
@@ -47,21 +65,10 @@ void main()
     uint demand = counters[k_counter_pair_demand];
     uint pair_count = counters[k_counter_did_not_fit] == 0u ? demand : 0u;
     counters[k_counter_pair_count] = pair_count;
-    counters[k_counter_manifold_count] = 0u;
-    counters[k_counter_contact_count] = 0u;
-    counters[k_counter_colour_demand] = 0u;
-    counters[k_counter_overflow_count] = 0u;
-    counters[k_counter_uncoloured] = 0u;
-    counters[k_counter_hub_count] = 0u;
-    counters[k_counter_hub_manifolds] = 0u;
-    counters[k_counter_launched_colours] = 0u;
-    counters[k_counter_launched_substeps] = 0u;
-    counters[k_counter_launched_overflow] = 0u;
+    if (args.x == 1u) counters[k_counter_graph_due] = 1u; // whose pairs may have other numbers
+    if (args.y == 1u) begin_graph();
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;
-    counters[k_counter_sleeping_manifolds] = 0u;
-    counters[k_counter_singles] = 0u;
-    counters[k_counter_substep_demand] = parameters.least_substeps;
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);
     dispatches[k_dispatch_old_pairs] = groups_for(counters[k_counter_old_pair_count], k_group_size);

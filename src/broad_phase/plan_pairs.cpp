@@ -28,6 +28,15 @@ static void take_pairs(CpuState& state, bool due, bool had_launches) {
     }
 }
 
+static void begin_graph(CpuState& state) {
+    for (const uint counter :
+         {k_counter_manifold_count, k_counter_contact_count, k_counter_colour_demand, k_counter_overflow_count,
+          k_counter_uncoloured, k_counter_hub_count, k_counter_hub_manifolds, k_counter_launched_colours,
+          k_counter_launched_substeps, k_counter_launched_overflow, k_counter_sleeping_manifolds, k_counter_singles})
+        state.counters[counter] = 0;
+    state.counters[k_counter_substep_demand] = state.parameters.least_substeps;
+}
+
 static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& counters = state.counters;
     const bool due = counters[k_counter_search_count] != 0;
@@ -40,21 +49,10 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const uint demand = counters[k_counter_pair_demand];
     const uint pair_count = counters[k_counter_did_not_fit] == 0 ? demand : 0;
     counters[k_counter_pair_count] = pair_count;
-    counters[k_counter_manifold_count] = 0;
-    counters[k_counter_contact_count] = 0;
-    counters[k_counter_colour_demand] = 0;
-    counters[k_counter_overflow_count] = 0;
-    counters[k_counter_uncoloured] = 0;
-    counters[k_counter_hub_count] = 0;
-    counters[k_counter_hub_manifolds] = 0;
-    counters[k_counter_launched_colours] = 0;
-    counters[k_counter_launched_substeps] = 0;
-    counters[k_counter_launched_overflow] = 0;
+    if (launch.args[0] == 1) counters[k_counter_graph_due] = 1; // whose pairs may have other numbers
+    if (launch.args[1] == 1) begin_graph(state);
     counters[k_counter_report_count] = 0;
     counters[k_counter_sleeping_bodies] = 0;
-    counters[k_counter_sleeping_manifolds] = 0;
-    counters[k_counter_singles] = 0;
-    counters[k_counter_substep_demand] = state.parameters.least_substeps;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     state.dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);
     state.dispatches[k_dispatch_old_pairs] = groups_for(counters[k_counter_old_pair_count], k_group_size);

@@ -4,7 +4,8 @@
 // args.x: 1 where the pairs are those of the last step, one by one.
 // Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds,
 // OldManifoldPoints.
-// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints.
+// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints; Counters, where a manifold
+// has other points than in the last step, by which the constraint graph is another one.
 // Needs: barriers after plan_pairs and fill_pair_table.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -22,7 +23,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Pairs { Pair pairs[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
@@ -96,6 +97,11 @@ uint old_manifold_of(uint pair_index, Pair pair)
     return unpack(old_manifolds[pair_index]).point_count > 0u ? pair_index : k_none;
 }
 
+void compare_with_last(uint pair_index, uint point_count)
+{
+    if (args.x == 1u && unpack(old_manifolds[pair_index]).point_count != point_count) counters[k_counter_graph_due] = 1u;
+}
+
 void main()
 {
     uint pair_index = item_index();
@@ -103,6 +109,7 @@ void main()
     Pair pair = pairs[pair_index];
     if (!is_near(pair)) {
         manifolds[pair_index] = pack(no_manifold(pair));
+        compare_with_last(pair_index, 0u);
         return;
     }
     uint old_index = old_manifold_of(pair_index, pair);
@@ -140,6 +147,7 @@ void main()
         impulses = vec4(0.0);
     }
     manifolds[pair_index] = pack(manifold);
+    compare_with_last(pair_index, g.count);
     for (uint i = 0u; i < 4u; ++i) {
         if (i < g.count)
             manifold_points[4u * pair_index + i] = pack(make_point(g, pose_a.position, offset, i, impulses[i]));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of collide_pairs.comp.glsl.
 #include <algorithm>
+#include <atomic>
 
 #include "broad_phase/box_now.h"
 #include "device/cpu/cpu_state.h"
@@ -64,6 +65,11 @@ uint old_manifold_of(const CpuState& state, uint pair_index, bool same_pairs) {
     return state.old_manifolds[pair_index].point_count > 0 ? pair_index : k_none;
 }
 
+void compare_with_last(CpuState& state, uint pair_index, bool same_pairs) {
+    if (same_pairs && state.old_manifolds[pair_index].point_count != state.manifolds[pair_index].point_count)
+        std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
+}
+
 void collide_pair(CpuState& state, uint pair_index, bool same_pairs) {
     const Pair pair = state.pairs[pair_index];
     if (!is_near(state, pair)) {
@@ -105,7 +111,12 @@ void collide_pair(CpuState& state, uint pair_index, bool same_pairs) {
 
 void collide_pairs_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(
-        state.counters[k_counter_pair_count], [&](uint pair) { collide_pair(state, pair, launch.args[0] == 1); }, 64);
+        state.counters[k_counter_pair_count],
+        [&](uint pair) {
+            collide_pair(state, pair, launch.args[0] == 1);
+            compare_with_last(state, pair, launch.args[0] == 1);
+        },
+        64);
 }
 
 } // namespace

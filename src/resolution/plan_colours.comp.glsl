@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // One group, an invocation for each colour: whether the colours and the sub-steps fit, and the launches of the
 // resolution. args.x: 1 where what is launched has been counted apart. args.y: 0 where a work group solves each island, so
-// that colours and sub-steps need no launches; hubs cannot be solved there.
+// that colours and sub-steps need no launches; hubs cannot be solved there. args.z: 1 where the graph has not been made, as
+// it should be the last step's.
 // Reads: ColourOffsets, Counters.
 // Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.
 // Overflow: more colours or sub-steps than the host has launches for, and more manifolds of hubs than it has room for,
-// are said in k_counter_did_not_fit. Where that is set, by this step or an earlier one, all launches are empty.
+// are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by this step or an earlier one, all launches are empty.
 #include "state/dispatch.shared.glsl"
 #include "resolution/island.shared.glsl"
 
@@ -26,6 +27,8 @@ void main()
     uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];
     uint overflow_count = counters[measured ? k_counter_launched_overflow : k_counter_overflow_count];
     uint did_not_fit = counters[k_counter_did_not_fit];
+    bool due = counters[k_counter_graph_due] != 0u;
+    if (args.z == 1u && due) did_not_fit |= k_fit_graph;
     if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;
     if (launches && substeps > parameters.substep_capacity) did_not_fit |= k_fit_substeps;
@@ -51,4 +54,7 @@ void main()
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;
     arrivals[0] = 0u; // of solve_persistent
+    counters[k_counter_graph_was_due] = due ? 1u : 0u;
+    // Contacts of hubs get other shares in each step.
+    counters[k_counter_graph_due] = on == 0u || counters[k_counter_hub_count] > 0u ? 1u : 0u;
 }

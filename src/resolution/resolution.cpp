@@ -33,7 +33,7 @@ void wake(Device& device, const StepPlan& plan) {
     device.run({.kernel = wake_neighbours, .items = plan.pair_capacity});
 }
 
-void constraint_graph(Device& device, const StepPlan& plan) {
+static void make_graph(Device& device, const StepPlan& plan) {
     device.run({.kernel = clear_colours, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
     device.run({.kernel = assign_colours, .items = plan.colouring_groups});
@@ -49,7 +49,13 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                          .slot = k_dispatch_pair_tiles});
     if (plan.needs_launches())
         find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
-    device.run({.kernel = plan_colours, .items = 1, .args = {plan.measures_islands(), plan.needs_launches()}});
+}
+
+void constraint_graph(Device& device, const StepPlan& plan) {
+    if (plan.makes_graph) make_graph(device, plan);
+    device.run({.kernel = plan_colours,
+                .items = 1,
+                .args = {plan.measures_islands(), plan.needs_launches(), !plan.makes_graph}});
 }
 
 void prepare(Device& device, const StepPlan& plan) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of store_contact_impulses.comp.glsl.
+#include <atomic>
+
 #include "device/cpu/cpu_state.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
@@ -17,8 +19,11 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch&) {
             points[i].normal_impulse = impulse[i];
         }
         manifold.colour = colour_of_step(state.manifold_keys[index], c.traits);
+        const uint substeps = manifold.substeps;
         manifold = finish_manifold(manifold, c, impulse, state.properties[c.body_a].inverse_mass,
                                    state.properties[c.body_b].inverse_mass, state.parameters);
+        if (manifold.substeps != substeps) // of the next step
+            std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
     });
 }
 
