@@ -311,6 +311,7 @@ StepPlan Simulation::plan_in_launches(const Population& population) const {
 
 StepPlan Simulation::plan_step(const Population& population) const {
     StepPlan now = plan_in_launches(population);
+    if (now.hub_capacity > 0) now.weighing_groups = std::max(placement.resolution->resident_groups(weigh_hubs), 1u);
     if (!now.small) now.colouring_groups = std::max(placement.resolution->resident_groups(assign_colours), 1u);
     if (!now.may_be_persistent()) return now;
     const uint groups = placement.resolution->resident_groups(solve_persistent);
@@ -328,6 +329,8 @@ void Simulation::prepare_kernels(const Population& population) {
     StepPlan first = plan_in_launches(population);
     // How many groups it will have is found by a trial of the kernel itself.
     if (first.may_be_persistent() && gpu->loops_freely()) first.persistent_groups = 1;
+    // What a large world may need at any time: a driver compiles such a kernel for a second or two.
+    first.singles = first.has_groups();
     KernelList list(*gpu);
     for (std::size_t i = 0; i < k_stage_count; ++i) {
         const Stage stage{static_cast<int>(i)};
@@ -335,6 +338,7 @@ void Simulation::prepare_kernels(const Population& population) {
     }
     first.searches = false;
     run_stage(list, Stage::BroadPhase, first);
+    if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
     gpu->prepare(list.kernels);
     kernels_prepared = true;
 }

@@ -34,6 +34,7 @@ struct StepPlan {
     bool in_groups = false;     ///< work groups solve islands: each of a small world, the little ones of a large world
     bool singles = false;       ///< in a large world a work group may solve a single island, too large to share one
     uint colouring_groups = 1;  ///< that colour new contacts, waiting for each other
+    uint weighing_groups = 1;   ///< that find the loads on hubs where no graph is made, in the same way
     uint persistent_groups = 0; ///< that solve all else in one launch; 0: a launch for each colour and pass
     uint least_substeps = 0;
     uint most_substeps = 0;

@@ -3,7 +3,7 @@
 // args.x: 1 where the search had launches. args.y: 1 where the constraint graph has them; otherwise it is the last step's,
 // and so are its counts.
 // Reads: Counters.
-// Writes: Counters, Dispatches.
+// Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the scan of the pair counts.
 // Overflow: says so in k_counter_did_not_fit. Once that is set there are no pairs to treat, in this step and in those
 // behind it that are on their way already: the last step's manifolds must be there when the host does it again. So it is
@@ -14,6 +14,7 @@ layout(local_size_x = 1) in;
 
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
+layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
 
 void take_pairs(bool due)
 {
@@ -69,6 +70,7 @@ void main()
     if (args.y == 1u) begin_graph();
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;
+    arrivals[0] = 0u; // of the first launch whose groups wait for each other
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);
     dispatches[k_dispatch_old_pairs] = groups_for(counters[k_counter_old_pair_count], k_group_size);

@@ -55,16 +55,6 @@ struct Edge {
     uint part;         // of the hub's load
 };
 
-bool is_found_hub(uint body) { return body_colours[body_word(body, k_hub_word)] != 0u; }
-
-// The hub that it is an edge of; k_none also where both bodies are hubs.
-uint hub_of(Manifold manifold)
-{
-    bool of_a = is_found_hub(manifold.body_a);
-    if (of_a == is_found_hub(manifold.body_b)) return k_none;
-    return of_a ? manifold.body_a : manifold.body_b;
-}
-
 Edge load_edge(uint pair)
 {
     Manifold manifold = manifolds[pair];
@@ -89,9 +79,7 @@ Edge load_edge(uint pair)
     uint usable = is_found_hub(edge.body[0]) && is_found_hub(edge.body[1]) ? 0u : parameters.usable_colours;
     if (edge.hub != k_none) {
         edge.part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), edge.hub);
-        bool carries = carries_hub(edge.part, body_colours[body_word(edge.hub, k_whole_load)], manifold.colour);
-        usable = colours_below_hubs(carries, both_movable, manifold.colour,
-                                    largest_load(body_colours[body_word(edge.hub, k_largest_load)]), parameters);
+        usable = colours_of_hubs_edge(manifold, edge.part, edge.hub, both_movable);
     }
     edge.colour = first_free_colour(low, high, usable);
     edge.is_shared = edge.hub != k_none && edge.colour == k_overflow_colour;

@@ -65,9 +65,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
                               : 0;
         uint usable = hub_count == 0 ? state.parameters.usable_colours : 0;
         if (hub_count == 1)
-            usable = colours_below_hubs(carries_hub(part, word_of(hub, k_whole_load), manifold.colour),
-                                        std::ranges::all_of(bodies, movable), manifold.colour,
-                                        largest_load(word_of(hub, k_largest_load)), state.parameters);
+            usable = colours_of_hubs_edge(state, manifold, part, hub, std::ranges::all_of(bodies, movable));
         uint low = 0, high = 0, high_of_other = 0;
         for (const uint body : bodies) {
             if (!movable(body)) continue;

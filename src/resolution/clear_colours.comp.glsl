@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: no colour in use, no rank seen, no hub. Nobody has come to
-// assign_colours yet.
+// One invocation is a body slot: no colour in use, no rank seen, no hub.
 // Reads: nothing.
-// Writes: BodyColours, Arrivals.
+// Writes: BodyColours.
 // Needs: nothing.
 // Overflow: none.
 #include "resolution/colouring.shared.glsl"
@@ -10,13 +9,11 @@
 layout(local_size_x = 64) in;
 
 layout(std430) writeonly buffer BodyColours { uint body_colours[]; };
-layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
 
 void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    if (body == 0u) arrivals[0] = 0u;
     for (uint word = 0u; word < k_body_words; ++word)
         body_colours[body_word(body, word)] = 0u;
 }

@@ -10,7 +10,6 @@ namespace talus::engine {
 
 static void clear_colours_on_cpu(CpuState& state, const Launch&) {
     std::fill_n(state.body_colours.data, std::size_t{k_body_words} * state.parameters.body_count, 0u);
-    if (state.parameters.body_count > 0) state.arrivals[0] = 0;
 }
 
 const Kernel clear_colours{"resolution/clear_colours", clear_colours_on_cpu};

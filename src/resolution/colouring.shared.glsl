@@ -74,7 +74,8 @@ inline uint body_word(uint body, uint word) { return k_body_words * body + word;
 // where others are not: with a share in its first step, a block of 25 t that fell on a plate of 38 t threw the
 // boxes below at 37 m/s.
 //
-// Edges of a hub are coloured anew in each step, as their loads change.
+// Edges of a hub are coloured anew with each graph, as their loads change, and a graph lasts as long as they would all
+// get the colours that they have.
 
 const uint k_is_hub = 0x80000000u;
 const uint k_parts_to_carry = 16u;
@@ -98,6 +99,14 @@ inline uint colours_below_hubs(bool carries, bool both_movable, uint last_colour
     if (carries) return p.usable_colours;
     bool lands = last_colour == k_no_colour && largest_load != 0u;
     return lands || !both_movable ? min(p.usable_colours, k_colours_for_first) : 0u;
+}
+
+// Whether an edge of a hub that has this colour gets it again where it may take one of the first `usable` ones, if all
+// other edges keep theirs: it took the first that was free.
+inline bool keeps_colour(uint colour, uint usable)
+{
+    bool has_whole_hub = colour != k_no_colour && (colour & k_whole_hub) != 0u;
+    return has_whole_hub ? (colour & ~k_whole_hub) < usable : colour != k_no_colour && usable == 0u;
 }
 
 inline uint shares_of_hub(uint edge_count, uint hub_word) { return edge_count - (hub_word & ~k_is_hub); }

@@ -5,8 +5,6 @@
 // and inertia (hub_load.shared.glsl). What they do to their shares is then added up: the hub moves as their weighted mean,
 // and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid Body Simulation", 2012).
 
-inline bool is_hub_colour(uint colour) { return colour >= k_first_hub_colour && colour < k_max_colours; }
-
 // Of both bodies. In the other colours a hub is a body as others are.
 inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
 {

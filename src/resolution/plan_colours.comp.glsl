@@ -27,7 +27,8 @@ void main()
     uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];
     uint overflow_count = counters[measured ? k_counter_launched_overflow : k_counter_overflow_count];
     uint did_not_fit = counters[k_counter_did_not_fit];
-    bool due = counters[k_counter_graph_due] != 0u;
+    bool has_unweighed_hubs = counters[k_counter_hub_count] > 0u && parameters.hub_capacity == 0u;
+    bool due = counters[k_counter_graph_due] != 0u || has_unweighed_hubs;
     if (args.z == 1u && due) did_not_fit |= k_fit_graph;
     if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;
@@ -55,6 +56,5 @@ void main()
     counters[k_counter_launched_overflow] = overflow_count;
     arrivals[0] = 0u; // of solve_persistent
     counters[k_counter_graph_was_due] = due ? 1u : 0u;
-    // Contacts of hubs get other shares in each step.
-    counters[k_counter_graph_due] = on == 0u || counters[k_counter_hub_count] > 0u ? 1u : 0u;
+    counters[k_counter_graph_due] = 1u - on; // of the next step
 }

@@ -52,7 +52,10 @@ static void make_graph(Device& device, const StepPlan& plan) {
 }
 
 void constraint_graph(Device& device, const StepPlan& plan) {
-    if (plan.makes_graph) make_graph(device, plan);
+    if (plan.makes_graph)
+        make_graph(device, plan);
+    else if (plan.hub_capacity > 0)
+        device.run({.kernel = weigh_hubs, .items = plan.weighing_groups});
     device.run({.kernel = plan_colours,
                 .items = 1,
                 .args = {plan.measures_islands(), plan.needs_launches(), !plan.makes_graph}});

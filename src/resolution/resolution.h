@@ -24,6 +24,7 @@ void store_impulses(Device&);
 extern const Kernel clear_colours;
 extern const Kernel keep_colours;
 extern const Kernel assign_colours;
+extern const Kernel weigh_hubs;
 extern const Kernel find_islands;
 extern const Kernel begin_islands;
 extern const Kernel join_islands;
