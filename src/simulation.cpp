@@ -80,10 +80,15 @@ bool moves_bodies(const BodyChanges& changes) {
     });
 }
 
+/// Loads are all that a caller changes in each step, and the graph knows nothing of them.
+bool changes_the_graph(const BodyChanges& changes) {
+    return std::ranges::any_of(changes, [](const RecordChanges& change) { return change.buffer != BufferId::Loads; });
+}
+
 /// Whether the two put the same manifolds into the same order, if the bodies and manifolds are the same.
 bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
     return plan.body_count == other.body_count && plan.one_island == other.one_island &&
-           plan.in_groups == other.in_groups && plan.singles == other.singles;
+           plan.in_groups == other.in_groups && plan.singles == other.singles && plan.bounces == other.bounces;
 }
 
 uint with_headroom(uint demand) {
@@ -348,7 +353,7 @@ void Simulation::enqueue(Pending entry) {
     StepPlan now = plan_step(entry.population);
     const bool other_bodies = entry.population.slots != enqueued_slots;
     now.searches = !pairs_last.holds() || moves_bodies(entry.changes) || other_bodies;
-    now.makes_graph = !graph_lasts.holds() || now.searches || !entry.changes.empty() || settings.sleeping ||
+    now.makes_graph = !graph_lasts.holds() || now.searches || changes_the_graph(entry.changes) || settings.sleeping ||
                       placement.hybrid() || !has_the_graph_of(now, newest_plan);
     newest_plan = now;
     const Parameters parameters = make_parameters(settings, now);

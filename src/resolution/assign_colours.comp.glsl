@@ -96,6 +96,13 @@ bool makes_hub(uint body)
                   body_colours[body_word(body, k_new_edges)], parameters);
 }
 
+void list_hub(uint hub)
+{
+    hubs[atomicAdd(counters[k_counter_hub_count], 1u)] = hub;
+    bool has_kept = (body_colours[body_word(hub, k_used_low)] | body_colours[body_word(hub, k_used_high)]) != 0u;
+    if (has_kept) counters[k_counter_graph_due] = k_due_twice;
+}
+
 // Whether its bodies are hubs, and the largest load on each that is.
 void find_hubs(uint pair)
 {
@@ -108,7 +115,7 @@ void find_hubs(uint pair)
         uint body = end == 0u ? manifold.body_a : manifold.body_b;
         body_colours[body_word(body, k_hub_word)] = k_is_hub; // others write the same
         if (atomicMax(body_colours[body_word(body, k_largest_load)], largest_load_word(load)) == 0u)
-            hubs[atomicAdd(counters[k_counter_hub_count], 1u)] = body;
+            list_hub(body);
     }
 }
 
@@ -220,7 +227,8 @@ void main()
     }
     colour_in_rounds(first, stride, entry_count);
     for (uint i = first; i < counters[k_counter_hub_count]; i += stride) {
-        uint shares = shares_of_hub(body_colours[body_word(hubs[i], k_new_edges)], body_colours[body_word(hubs[i], k_hub_word)]);
+        uint shares = shares_of_hub(body_colours[body_word(hubs[i], k_new_edges)],
+                                    body_colours[body_word(hubs[i], k_hub_word)]);
         atomicAdd(counters[k_counter_hub_manifolds], shares);
     }
 }

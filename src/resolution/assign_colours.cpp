@@ -33,7 +33,11 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         const uint load = std::ranges::all_of(bodies, makes_hub) ? 0 : state.manifold_keys[edge.pair];
         for (const uint body : bodies) {
             if (!makes_hub(body)) continue;
-            if (word_of(body, k_hub_word) == 0) state.hubs[state.counters[k_counter_hub_count]++] = body;
+            if (word_of(body, k_hub_word) == 0) {
+                state.hubs[state.counters[k_counter_hub_count]++] = body;
+                if ((word_of(body, k_used_low) | word_of(body, k_used_high)) != 0)
+                    state.counters[k_counter_graph_due] = k_due_twice;
+            }
             word_of(body, k_hub_word) = k_is_hub;
             uint& largest = word_of(body, k_largest_load);
             largest = max(largest, largest_load_word(load)); // not negative: ordered as the floats

@@ -102,11 +102,13 @@ inline uint colours_below_hubs(bool carries, bool both_movable, uint last_colour
 }
 
 // Whether an edge of a hub that has this colour gets it again where it may take one of the first `usable` ones, if all
-// other edges keep theirs: it took the first that was free.
-inline bool keeps_colour(uint colour, uint usable)
+// other edges keep theirs. With the whole hub it took the first that was free. One that got none was refused as many as its
+// kind may have at least.
+inline bool keeps_colour(uint colour, uint usable, bool both_movable, Parameters p)
 {
-    bool has_whole_hub = colour != k_no_colour && (colour & k_whole_hub) != 0u;
-    return has_whole_hub ? (colour & ~k_whole_hub) < usable : colour != k_no_colour && usable == 0u;
+    if (colour == k_no_colour) return false;
+    if ((colour & k_whole_hub) != 0u) return (colour & ~k_whole_hub) < usable;
+    return usable <= (both_movable ? 0u : min(p.usable_colours, k_colours_for_first));
 }
 
 inline uint shares_of_hub(uint edge_count, uint hub_word) { return edge_count - (hub_word & ~k_is_hub); }

@@ -116,16 +116,22 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 nor
     manifold.twist_impulse = friction.z;
     float mean = next_mean_load(manifold.weights, weights);
     uint wanted = wanted_substeps(mean, p);
-    bool on_trial = manifold.idle_steps >= k_trial;
+    bool grows = manifold.idle_steps >= k_growing;
+    bool on_trial = manifold.idle_steps >= k_trial && !grows;
     bool idle = on_trial || 2u * wanted <= manifold.substeps;
-    manifold.idle_steps = idle ? manifold.idle_steps + 1u : 0u;
-    uint patience = on_trial ? k_trial + k_trial_steps : k_patience;
     if (wanted > manifold.substeps) {
-        manifold.substeps = wanted;
-        manifold.idle_steps = 0u;
-    } else if (manifold.idle_steps >= patience) {
-        manifold.substeps = max(wanted, manifold.substeps / 2u);
-        manifold.idle_steps = manifold.substeps > wanted ? patience - k_halving_steps : 0u;
+        manifold.idle_steps = grows ? manifold.idle_steps + 1u : k_growing + 1u;
+        if (manifold.idle_steps == k_growing + k_growing_steps) {
+            manifold.substeps = more_substeps(manifold.substeps, p);
+            manifold.idle_steps = 0u;
+        }
+    } else {
+        uint patience = on_trial ? k_trial + k_trial_steps : k_patience;
+        manifold.idle_steps = !idle ? 0u : grows ? 1u : manifold.idle_steps + 1u;
+        if (manifold.idle_steps >= patience) {
+            manifold.substeps = max(wanted, manifold.substeps / 2u);
+            manifold.idle_steps = manifold.substeps > wanted ? patience - k_halving_steps : 0u;
+        }
     }
     manifold.weights = mean;
     return manifold;

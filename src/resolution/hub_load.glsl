@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The hub that a manifold is an edge of, and the load on it. The kernel declares BodyColours before this file. The CPU's counterpart is hub_load.h.
+// The hub that a manifold is an edge of, and the load on it. The kernel declares BodyColours before this file. The CPU's
+// counterpart is hub_load.h.
 // Reads: ManifoldPoints, BodyColours.
 
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };

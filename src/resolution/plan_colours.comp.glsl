@@ -7,7 +7,8 @@
 // Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.
 // Overflow: more colours or sub-steps than the host has launches for, and more manifolds of hubs than it has room for,
-// are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by this step or an earlier one, all launches are empty.
+// are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by this step or an
+// earlier one, all launches are empty.
 #include "state/dispatch.shared.glsl"
 #include "resolution/island.shared.glsl"
 
@@ -56,5 +57,6 @@ void main()
     counters[k_counter_launched_overflow] = overflow_count;
     arrivals[0] = 0u; // of solve_persistent
     counters[k_counter_graph_was_due] = due ? 1u : 0u;
-    counters[k_counter_graph_due] = 1u - on; // of the next step
+    bool is_next_due = on == 0u || counters[k_counter_graph_due] == k_due_twice;
+    counters[k_counter_graph_due] = is_next_due ? 1u : 0u;
 }

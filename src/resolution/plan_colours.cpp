@@ -40,7 +40,8 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_launched_overflow] = overflow_count;
     state.arrivals[0] = 0;
     counters[k_counter_graph_was_due] = due ? 1 : 0;
-    counters[k_counter_graph_due] = 1 - on; // of the next step
+    const bool is_next_due = on == 0 || counters[k_counter_graph_due] == k_due_twice;
+    counters[k_counter_graph_due] = is_next_due ? 1 : 0;
     state.dispatches[k_dispatch_reports] = groups_for(on * counters[k_counter_pair_count], k_group_size);
     state.dispatches[k_dispatch_report_ends] = groups_for(on * counters[k_counter_old_pair_count], k_group_size);
 }

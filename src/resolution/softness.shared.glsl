@@ -85,8 +85,12 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
 const float k_substeps_against_sag = 0.5f;
 const float k_substeps_against_buckling = 0.095f;
 
-// More sub-steps are had at once, fewer only after so many steps in a row in which half would have done: a change of
-// stiffness shakes what stands, which changes the load, and without patience a tower never came to rest.
+// More sub-steps are had after so many steps in a row that asked for more, and then no more than the next number in use:
+// contacts that become much stiffer while they are deep throw back what has pressed them together.
+const uint k_growing = 2000u;    // Manifold::idle_steps counts up from here while more are asked for
+const uint k_growing_steps = 8u;
+// Fewer are had only after so many steps in a row in which half would have done: a change of stiffness shakes what stands,
+// which changes the load, and without patience a tower never came to rest.
 const uint k_patience = 64u;
 // What stands where the caller has put it is given the most until its load is known: with few sub-steps a tower would
 // be shaken while the load builds up.
@@ -99,6 +103,16 @@ inline uint substep_level(uint level, uint least)
 {
     uint whole = least << (level / 2u);
     return (level & 1u) == 0u ? whole : whole + whole / 2u;
+}
+
+// The next number in use.
+inline uint more_substeps(uint substeps, Parameters p)
+{
+    for (uint level = 0u; level < 16u; level += 1u) {
+        uint more = substep_level(level, p.least_substeps);
+        if (more > substeps) return min(more, p.most_substeps);
+    }
+    return p.most_substeps;
 }
 
 // The lowest number that is enough for a load.

@@ -63,7 +63,6 @@ HubChange load_change(uint i)
 #include "resolution/body_passes.glsl"
 #include "resolution/move_hubs.glsl"
 uint meeting_groups() { return gl_NumWorkGroups.x; }
-
 #include "primitives/grid_barrier.glsl"
 
 // Neighbours in the order of manifolds are 32 by 32 in different groups, as there are often fewer of a colour than

@@ -4,7 +4,7 @@
 // one, the graph is due.
 // args.x: 1 to count how many groups can run at a time instead.
 // Reads: Manifolds, ManifoldPoints, Shapes, Hubs.
-// Writes: BodyColours (loads of hubs), Counters; Uncoloured and Arrivals as it goes.
+// Writes: BodyColours (loads of hubs), Counters; Uncoloured, as loads_on_pairs, and Arrivals as it goes.
 // Needs: a barrier after collide_pairs; no more groups than can run at a time; arrivals[0] is 0.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -62,7 +62,7 @@ void compare_colours(uint pair)
     uint part = part_of_load(manifold, uintBitsToFloat(loads_on_pairs[pair]), hub);
     bool both_movable = is_movable(shapes[manifold.body_a]) && is_movable(shapes[manifold.body_b]);
     uint usable = colours_of_hubs_edge(manifold, part, hub, both_movable);
-    if (!keeps_colour(manifold.colour, usable)) counters[k_counter_graph_due] = 1u;
+    if (!keeps_colour(manifold.colour, usable, both_movable, parameters)) counters[k_counter_graph_due] = 1u;
     if (!is_hub_colour(manifold.colour)) atomicAdd(body_colours[body_word(hub, k_unshared_load)], part);
 }
 

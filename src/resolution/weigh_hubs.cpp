@@ -35,7 +35,8 @@ static void weigh_hubs_on_cpu(CpuState& state, const Launch&) {
         const bool both_movable =
             is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]);
         const uint part = part_of(pair, hub), usable = colours_of_hubs_edge(state, manifold, part, hub, both_movable);
-        if (!keeps_colour(manifold.colour, usable)) state.counters[k_counter_graph_due] = 1;
+        if (!keeps_colour(manifold.colour, usable, both_movable, state.parameters))
+            state.counters[k_counter_graph_due] = 1;
         if (!is_hub_colour(manifold.colour)) word_of(hub, k_unshared_load) += part;
     });
 }

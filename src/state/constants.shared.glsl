@@ -85,7 +85,7 @@ const uint k_counter_searched_slots = 22u; // body slots of the last search whos
 const uint k_counter_pairs_changed = 23u;  // 1 where pairs are other ones than OldManifolds has
 const uint k_counter_searched = 24u;       // 1 where this step had to search
 const uint k_counter_singles = 25u; // islands with too many bodies to share a work group, and few enough for one of their own
-const uint k_counter_graph_due = 26u; // 1 where the last step's constraint graph is not this one's
+const uint k_counter_graph_due = 26u; // not 0 where the last step's constraint graph is not this one's
 const uint k_counter_graph_was_due = 27u; // 1 where this step had to make its graph
 const uint k_counter_words = 28u;
 
@@ -97,8 +97,12 @@ const uint k_fit_hubs = 8u;
 const uint k_fit_search = 16u; // no room is missing: a driver ended the search for pairs
 const uint k_fit_reports = 32u; // the step itself is done; those behind it wait until its reports have been fetched
 const uint k_fit_groups = 64u; // groups that wait for each other were not run side by side: the step went wrong
-const uint k_fit_graph = 256u; // no room is missing: the step had to make its constraint graph, and had no launches for it
 const uint k_fit_strays = 128u; // no room is missing: the step had to search for pairs, and had no launches for it
+const uint k_fit_graph = 256u; // no room is missing: the step had to make its constraint graph, and had no launches for it
+
+// In k_counter_graph_due: nor will this step's be the next one's. A body that has become a hub keeps the colours of its old
+// contacts for one step.
+const uint k_due_twice = 2u;
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.
