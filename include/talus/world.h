@@ -26,8 +26,8 @@ struct StepReport {
     std::uint32_t hubs = 0;            ///< bodies with so many contacts that most are solved with a share of their mass
     std::uint32_t frozen_bodies = 0;   ///< bodies whose velocity became non-finite, in all steps so far
     std::uint32_t sleeping_bodies = 0; ///< see Settings::sleeping
-    std::uint32_t growths =
-        0; ///< steps done again with larger buffers or more launches, so far; not for a search or a graph
+    /// Steps done again with larger buffers or more launches, so far; not for a search or a graph.
+    std::uint32_t growths = 0;
     std::uint32_t dispatches = 0;              ///< launches of kernels that the host gave
     BroadPhase broad_phase = BroadPhase::Auto; ///< what searches for pairs; Auto before the first step
     double step_ms = 0.0;         ///< time on the device; 0 where it was not measured (see WorldOptions::profile)
