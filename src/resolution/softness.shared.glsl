@@ -28,6 +28,7 @@ struct Substep {
     float inv_h; // 1/s
     Softness soft;
     float push_speed; // m/s, of what overlaps, at most
+    float let_go;     // how many times faster impulses fall that throw: see let_go_of_thrown in contact.shared.glsl
 };
 
 // How many times as heavy as the two bodies is what they carry or stop, roughly: the speed that the impulses of the last
@@ -42,6 +43,10 @@ inline float heaviness(float load_speed)
 
 // What is heavy is pushed apart more slowly: down to this share of the push speed, as more than one contact may push it.
 const float k_least_push_share = 0.166666672f; // a sixth
+
+// Heavier than this is what a light body would throw back. Less is what light bodies carry at rest in a heap, which
+// never came to rest where their impulses were taken away.
+const float k_throwing = 8.0f;
 
 inline float substep_length(uint substeps, Parameters p)
 {
@@ -65,6 +70,7 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
         s.soft.mass_scale = 1.0f;
         s.soft.impulse_scale = 0.0f;
         s.push_speed = p.contact_push_speed;
+        s.let_go = 0.0f;
         return s;
     }
     precise float eighth = 0.785398163f * inv_h; // 2 pi / 8
@@ -73,6 +79,8 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
     precise float damping_ratio = p.contact_damping_ratio * square_root(heavy);
     s.soft = soft_row(w, damping_ratio, h);
     precise float slower = p.contact_push_speed * max(reciprocal(heavy), k_least_push_share);
+    precise float let_go = max(heavy - k_throwing, 0.0f);
+    s.let_go = let_go;
     s.push_speed = choose(heavy > 1.0f, slower, p.contact_push_speed);
     return s;
 }
