@@ -290,21 +290,39 @@ TEST(Math, a_heavy_load_is_damped_in_proportion_and_pushed_apart_more_slowly) {
 
 TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {
     const Parameters p = parameters_for(Settings{});
-    EXPECT_EQ(wanted_substeps(0.0f, p), 8u);
-    EXPECT_EQ(wanted_substeps(14.0f, p), 8u);
-    EXPECT_EQ(wanted_substeps(1e30f, p), 128u);
+    EXPECT_EQ(wanted_substeps(0.0f, k_unknown_height, p), 8u);
+    EXPECT_EQ(wanted_substeps(14.0f, k_unknown_height, p), 8u);
+    EXPECT_EQ(wanted_substeps(1e30f, k_unknown_height, p), 128u);
     uint before = 8;
     for (float weights = 0.0f; weights < 200.0f; weights += 0.25f) {
-        const uint substeps = wanted_substeps(weights, p);
+        const uint substeps = wanted_substeps(weights, k_unknown_height, p);
         EXPECT_GE(substeps, before) << weights;
         EXPECT_LE(substeps, std::max(8.0f, 1.5f * std::max(0.5f * weights, 0.0951f * std::pow(weights, 1.5f))))
             << weights;
         EXPECT_GE(static_cast<float>(substeps), std::min(128.0f, 0.0949f * std::pow(weights, 1.5f))) << weights;
         before = substeps;
     }
+    // A low column of heavily loaded contacts: 40 weights on a single one, and on ten.
+    EXPECT_EQ(wanted_substeps(40.0f, 1, p), 8u);
+    EXPECT_EQ(wanted_substeps(40.0f, 10, p), 12u);
+    EXPECT_EQ(wanted_substeps(40.0f, 40, p), 32u);
+    EXPECT_EQ(wanted_substeps(40.0f, 41, p), 32u) << "it is no higher than its load says";
+    EXPECT_EQ(wanted_substeps(1000.0f, 2, p), 24u) << "its contacts may sink by some millimetres";
     Settings few;
     few.substeps = few.max_substeps = 7;
-    EXPECT_EQ(wanted_substeps(500.0f, parameters_for(few)), 7u) << "a number of the caller's";
+    EXPECT_EQ(wanted_substeps(500.0f, k_unknown_height, parameters_for(few)), 7u) << "a number of the caller's";
+}
+
+TEST(Math, the_height_of_a_column_is_told_from_above) {
+    EXPECT_EQ(height_of_column(20.0f, 0), k_least_height) << "nothing heavy stands on it";
+    EXPECT_EQ(height_of_column(20.0f, told_load(19.0f, 11)), 12u);
+    EXPECT_EQ(height_of_column(20.0f, told_load(10.0f, 11)), 12u) << "half of the load comes from there";
+    EXPECT_EQ(height_of_column(20.0f, told_load(9.9f, 11)), k_least_height);
+    EXPECT_EQ(height_of_column(20.0f, told_load(19.0f, k_unknown_height)), k_unknown_height);
+    EXPECT_EQ(height_of_column(k_most_weights, told_load(k_most_weights, 30)), 31u);
+    EXPECT_GT(told_load(12.5f, 1), told_load(12.0f, k_unknown_height)) << "the heaviest load is heard";
+    EXPECT_EQ(idle_steps_of(make_history(2007, 255)), 2007u);
+    EXPECT_EQ(height_of(make_history(2007, 255)), 255u);
 }
 
 /// One point, or many on a lever, that press with this force and torque limit.

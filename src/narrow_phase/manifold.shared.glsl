@@ -73,7 +73,7 @@ inline Manifold make_sensed(Manifold manifold)
     sensed.twist_impulse = 0.0f;
     sensed.weights = 0.0f;
     sensed.substeps = 0u;
-    sensed.idle_steps = 0u;
+    sensed.history = 0u;
     return sensed;
 }
 
@@ -169,7 +169,7 @@ inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, u
 inline Manifold begin_trial(Manifold manifold, Parameters p)
 {
     manifold.substeps = p.most_substeps;
-    manifold.idle_steps = k_trial;
+    manifold.history = make_history(k_trial, k_unknown_height);
     return manifold;
 }
 
@@ -189,7 +189,7 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, BodyProperties a, Bo
     manifold.twist_impulse = 0.0f;
     manifold.weights = 0.0f;
     manifold.substeps = 0u;
-    manifold.idle_steps = 0u;
+    manifold.history = 0u;
     return manifold;
 }
 
@@ -210,7 +210,7 @@ inline Manifold no_manifold(Pair pair)
     manifold.twist_impulse = 0.0f;
     manifold.weights = 0.0f;
     manifold.substeps = 0u;
-    manifold.idle_steps = 0u;
+    manifold.history = 0u;
     return manifold;
 }
 
@@ -227,6 +227,6 @@ inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)
     manifold.twist_impulse = old.twist_impulse;
     manifold.weights = old.weights;
     manifold.substeps = min(old.substeps, p.most_substeps); // which the caller may have lowered
-    manifold.idle_steps = old.idle_steps;
+    manifold.history = old.history;
     return manifold;
 }

@@ -104,35 +104,57 @@ inline uint colour_of_step(uint key, uint its_traits)
     return (its_traits & k_trait_whole_hub) != 0u ? colour | k_whole_hub : colour;
 }
 
-// Impulses of the whole step, and the sub-steps that their load asks for in the next one.
-inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
-                               float inverse_mass_b, Parameters p)
+// ---- the load ----
+
+inline bool is_b_below(Manifold manifold, Parameters p) { return dot3(manifold.normal, p.gravity) > 0.0f; }
+inline uint body_below(Manifold manifold, Parameters p)
 {
-    precise float whole = float(c.substeps);
-    precise vec3 friction = c.friction_impulse * whole;
-    float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
-    manifold.tangent_impulse_1 = friction.x;
-    manifold.tangent_impulse_2 = friction.y;
-    manifold.twist_impulse = friction.z;
+    return is_b_below(manifold, p) ? manifold.body_b : manifold.body_a;
+}
+inline uint body_above(Manifold manifold, Parameters p)
+{
+    return is_b_below(manifold, p) ? manifold.body_a : manifold.body_b;
+}
+
+inline bool tells_its_load(Manifold manifold) { return manifold.weights >= k_least_told; }
+
+// The sub-steps that a load asks for in the next step. `told`: what the body above was told in this one.
+inline Manifold follow_load(Manifold manifold, float weights, uint told, Parameters p)
+{
     float mean = next_mean_load(manifold.weights, weights);
-    uint wanted = wanted_substeps(mean, p);
-    bool grows = manifold.idle_steps >= k_growing;
-    bool on_trial = manifold.idle_steps >= k_trial && !grows;
+    uint idle_steps = idle_steps_of(manifold.history);
+    bool grows = idle_steps >= k_growing;
+    bool on_trial = idle_steps >= k_trial && !grows;
+    uint height = on_trial ? k_unknown_height : height_of_column(mean, told);
+    uint wanted = wanted_substeps(mean, height, p);
     bool idle = on_trial || 2u * wanted <= manifold.substeps;
     if (wanted > manifold.substeps) {
-        manifold.idle_steps = grows ? manifold.idle_steps + 1u : k_growing + 1u;
-        if (manifold.idle_steps == k_growing + k_growing_steps) {
+        idle_steps = grows ? idle_steps + 1u : k_growing + 1u;
+        if (idle_steps == k_growing + k_growing_steps) {
             manifold.substeps = more_substeps(manifold.substeps, p);
-            manifold.idle_steps = 0u;
+            idle_steps = 0u;
         }
     } else {
         uint patience = on_trial ? k_trial + k_trial_steps : k_patience;
-        manifold.idle_steps = !idle ? 0u : grows ? 1u : manifold.idle_steps + 1u;
-        if (manifold.idle_steps >= patience) {
+        idle_steps = !idle ? 0u : grows ? 1u : idle_steps + 1u;
+        if (idle_steps >= patience) {
             manifold.substeps = max(wanted, manifold.substeps / 2u);
-            manifold.idle_steps = manifold.substeps > wanted ? patience - k_halving_steps : 0u;
+            idle_steps = manifold.substeps > wanted ? patience - k_halving_steps : 0u;
         }
     }
     manifold.weights = mean;
+    manifold.history = make_history(idle_steps, height);
     return manifold;
+}
+
+// Impulses of the whole step, and what follows from their load. `told`: see follow_load.
+inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
+                               float inverse_mass_b, uint told, Parameters p)
+{
+    precise float whole = float(c.substeps);
+    precise vec3 friction = c.friction_impulse * whole;
+    manifold.tangent_impulse_1 = friction.x;
+    manifold.tangent_impulse_2 = friction.y;
+    manifold.twist_impulse = friction.z;
+    return follow_load(manifold, weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p), told, p);
 }

@@ -3,7 +3,7 @@
 // Where its island sleeps it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands.
 // Reads: Properties, Shapes, Substeps, IslandGroups, BodyColours.
-// Writes: Inertias, Deltas, WarmStarts; Poses (flags), Velocities and Counters where a body falls asleep or wakes.
+// Writes: Inertias, Deltas, WarmStarts, ToldLoads (none yet); Poses (flags), Velocities and Counters where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -25,6 +25,7 @@ layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) writeonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) writeonly buffer Deltas { BodyDeltaCells deltas[]; };
+layout(std430) writeonly buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 
 void main()
@@ -51,6 +52,7 @@ void main()
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
+    told_loads[body] = 0u;
     deltas[body] = pack(no_delta());
     warm_starts[body] = pack(no_warm_start(unpack(velocities[body])));
 }

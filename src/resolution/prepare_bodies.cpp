@@ -27,6 +27,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         state.inertias[body].traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
             state.inertias[body].traits |= k_trait_grouped;
+        state.told_loads[body] = 0;
         state.deltas[body] = no_delta();
         state.warm_starts[body] = no_warm_start(state.velocities[body]);
     });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
 // Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, BodyColours, Velocities, Inertias.
-// Writes: Constraints.
+// Writes: Constraints, ToldLoads.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -25,6 +25,7 @@ layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 
 #include "resolution/hub_load.glsl"
@@ -46,6 +47,8 @@ void main()
     if (index >= counters[k_counter_manifold_count]) return;
     uint manifold_index = manifold_order[index];
     Manifold manifold = unpack(manifolds[manifold_index]);
+    if (tells_its_load(manifold))
+        atomicMax(told_loads[body_below(manifold, parameters)], told_load(manifold.weights, height_of(manifold.history)));
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
     uint colour = colour_of_key(manifold_keys[index]);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of prepare_contacts.comp.glsl.
+#include <atomic>
+
 #include "device/cpu/cpu_state.h"
 #include "resolution/hub_load.h"
 #include "resolution/resolution.h"
@@ -17,12 +19,20 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
                         word(k_whole_load) - word(k_unshared_load), shares_of_hub(word(k_new_edges), word(k_hub_word)));
 }
 
+static void tell_load(uint& told, const Manifold& manifold) {
+    const uint load = told_load(manifold.weights, height_of(manifold.history));
+    const std::atomic_ref shared(told);
+    for (uint before = shared.load(); before < load && !shared.compare_exchange_weak(before, load);) {
+    }
+}
+
 static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
     state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
         const uint manifold_index = state.manifold_order[index];
         const Manifold& manifold = state.manifolds[manifold_index];
         const BodyInertia& inertia_a = state.inertias[manifold.body_a];
         const BodyInertia& inertia_b = state.inertias[manifold.body_b];
+        if (tells_its_load(manifold)) tell_load(state.told_loads[body_below(manifold, state.parameters)], manifold);
         const uint colour = colour_of_key(state.manifold_keys[index]);
         const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * manifold_index];
         ContactConstraint& c = state.constraints[index];

@@ -89,20 +89,21 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
 
 // A load of N weights is that of a tower of N boxes. One of 1 m boxes buckles beyond N = 6 n^(2/3) at n sub-steps
 // (solver.md), so that n follows N^1.5; the linear part keeps short towers from sinking by more than a centimetre or
-// two.
+// two. Where no more than H contacts above each other carry the load, as under a heavy body on a light one, they are a
+// column of that height: it buckles as if n followed H sqrt(N), and sinks as if it followed sqrt(H N).
 const float k_substeps_against_sag = 0.5f;
 const float k_substeps_against_buckling = 0.095f;
 
 // More sub-steps are had after so many steps in a row that asked for more, and then no more than the next number in use:
 // contacts that become much stiffer while they are deep throw back what has pressed them together.
-const uint k_growing = 2000u;    // Manifold::idle_steps counts up from here while more are asked for
+const uint k_growing = 2000u;    // idle steps count up from here while more are asked for
 const uint k_growing_steps = 8u;
 // Fewer are had only after so many steps in a row in which half would have done: a change of stiffness shakes what stands,
 // which changes the load, and without patience a tower never came to rest.
 const uint k_patience = 64u;
 // What stands where the caller has put it is given the most until its load is known: with few sub-steps a tower would
 // be shaken while the load builds up.
-const uint k_trial = 1000u;      // Manifold::idle_steps counts up from here in a trial
+const uint k_trial = 1000u;      // idle steps count up from here in a trial
 const uint k_trial_steps = 32u;
 const uint k_halving_steps = 8u; // to half of that at a time
 
@@ -123,11 +124,12 @@ inline uint more_substeps(uint substeps, Parameters p)
     return p.most_substeps;
 }
 
-// The lowest number that is enough for a load.
-inline uint wanted_substeps(float weights, Parameters p)
+// The lowest number that is enough for a load, and for the height of what carries it.
+inline uint wanted_substeps(float weights, uint height, Parameters p)
 {
-    precise float against_buckling = k_substeps_against_buckling * weights * square_root(weights);
-    precise float against_sag = k_substeps_against_sag * weights;
+    precise float high = min(float(height), weights);
+    precise float against_buckling = k_substeps_against_buckling * high * square_root(weights);
+    precise float against_sag = k_substeps_against_sag * square_root(high * weights);
     float wanted = max(against_sag, against_buckling);
     for (uint level = 0u; level < 16u; level += 1u) {
         uint substeps = substep_level(level, p.least_substeps);
@@ -162,3 +164,34 @@ inline float next_mean_load(float mean, float newest)
     precise float next = mean + k_newest_weight * (counted - mean);
     return next;
 }
+
+// ---- the height of what carries a load ----
+//
+// Contacts tell the body below them how heavily they are loaded, and the height of the column that they are the foot of.
+// A contact that carries no more than twice what the one above carries stands in the same column. So the height of a tower
+// is known from the top down, one contact a step.
+
+// Less is told to nobody, and counts as a column of so many: 8 sub-steps are enough for it anyway.
+const float k_least_told = 8.0f;
+const uint k_least_height = 8u;
+const uint k_unknown_height = 255u; // also of all that are higher
+
+// What a contact tells, so that the largest word is that of the heaviest load.
+inline uint told_load(float weights, uint height)
+{
+    precise float sixteenths = min(weights, k_most_weights) * 16.0f;
+    return uint(sixteenths) << 8u | min(height, k_unknown_height);
+}
+
+// `told`: by the contacts above, 0 if they tell nothing.
+inline uint height_of_column(float weights, uint told)
+{
+    uint height = told & 255u;
+    precise float weights_above = float(told >> 8u) * 0.0625f;
+    return 2.0f * weights_above < max(weights, k_least_told) ? k_least_height : min(height + 1u, k_unknown_height);
+}
+
+// Manifold::history: steps in a row in which half the sub-steps would have done, and the height of the column.
+inline uint make_history(uint idle_steps, uint height) { return idle_steps | height << 16u; }
+inline uint idle_steps_of(uint history) { return history & 0xffffu; }
+inline uint height_of(uint history) { return history >> 16u; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: its impulses and its colour go back to where the next step, and
 // the caller, find them. The load on it decides how many sub-steps it asks for next.
-// Reads: Counters, Constraints, ManifoldKeys, Properties.
+// Reads: Counters, Constraints, ManifoldKeys, Properties, ToldLoads.
 // Writes: ManifoldPoints and Manifolds (impulses, colour, load, sub-steps); Counters, where sub-steps are others than before.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
@@ -20,6 +20,7 @@ layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
+layout(std430) readonly buffer ToldLoads { uint told_loads[]; };
 layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 
@@ -38,7 +39,8 @@ void main()
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
     Manifold finished = finish_manifold(manifold, c, impulse, unpack(properties[c.body_a]).inverse_mass,
-                                        unpack(properties[c.body_b]).inverse_mass, parameters);
+                                        unpack(properties[c.body_b]).inverse_mass,
+                                        told_loads[body_above(manifold, parameters)], parameters);
     manifolds[c.manifold] = pack(finished);
     if (finished.substeps != manifold.substeps) counters[k_counter_graph_due] = 1u; // of the next step
 }

@@ -70,6 +70,7 @@ namespace talus::engine {
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
     X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffufffuffffffffffffffffffffffffffffffffffffffff", \
       Result)                                                                                                          \
+    X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
     X(HubChanges, hub_changes, HubChange, "fffuffff", Result)                                                          \
     X(Arrivals, arrivals, uint, "u", Scratch)                                                                          \

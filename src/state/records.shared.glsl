@@ -116,7 +116,7 @@ struct Manifold {
     float twist_impulse; // N m s, about the normal
     float weights;       // of the lighter body, that press the two together: a mean over some steps
     uint substeps;       // that the load asks for
-    uint idle_steps;     // steps in a row in which half the sub-steps would have done; see softness.shared.glsl
+    uint history;        // of its load, see resolution/softness.shared.glsl
 };
 
 // 48 bytes, four a pair.
