@@ -39,7 +39,7 @@ constexpr std::array k_body_buffers{
     BufferId::PairCounts, BufferId::SpreadSums,   BufferId::SortedAabbs,  BufferId::Inertias,
     BufferId::WarmStarts, BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,
     BufferId::Hubs,       BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,
-    BufferId::IslandFill, BufferId::IslandBodies, BufferId::IslandPlaces, BufferId::ToldLoads,
+    BufferId::IslandFill, BufferId::IslandBodies, BufferId::IslandPlaces,
 };
 
 constexpr std::array k_pair_buffers{
@@ -176,6 +176,7 @@ void Simulation::reserve_bodies(uint count) {
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
+    grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words} * capacity);
     if (settings.sleeping) grow_everywhere(BufferId::Rests, capacity);
     body_capacity = capacity;
 }

@@ -297,6 +297,87 @@ TEST_P(LongContactQuality, the_heavy_may_stand_on_the_light) {
     }
 }
 
+// ---- columns ----
+
+BodyDefinition of_mass(Vec3 place, Vec3 size, float mass) {
+    BodyDefinition body = box_at(place, size);
+    body.mass = mass;
+    return body;
+}
+
+/// Bodies in the order of the tower, and others that only lie on it.
+struct Tower {
+    std::vector<BodyDefinition> bodies{ground()}, others;
+};
+
+/// Storeys of four boxes and of one by turns, each with a slab on it: the loads of four contacts come together in one.
+Tower tower_that_joins() {
+    Tower tower;
+    float y = 0.0f;
+    for (int storey = 0; storey < 40; ++storey) {
+        if (storey % 2 == 0) {
+            for (const float x : {-0.6f, 0.6f})
+                for (const float z : {-0.6f, 0.6f})
+                    tower.bodies.push_back(of_mass({x, y + 0.5f, z}, {1.0f, 1.0f, 1.0f}, 1000.0f));
+        } else {
+            tower.bodies.push_back(of_mass({0.0f, y + 0.5f, 0.0f}, {1.0f, 1.0f, 1.0f}, 1000.0f));
+        }
+        tower.bodies.push_back(of_mass({0.0f, y + 1.25f, 0.0f}, {2.2f, 0.5f, 2.2f}, 1000.0f));
+        y += 1.5f;
+    }
+    return tower;
+}
+
+/// A tower with ledges. On each lies a stone of 100 g, heavily loaded by one of 7 kg: 70 weights, as at the tower's
+/// foot.
+Tower tower_with_stones() {
+    Tower tower;
+    for (int i = 0; i < 60; ++i) {
+        const float y = static_cast<float>(i);
+        tower.bodies.push_back(of_mass({0.0f, y + 0.5f, 0.0f}, {i % 2 == 0 ? 1.0f : 2.0f, 1.0f, 1.0f}, 1000.0f));
+        for (const float x : {-0.75f, 0.75f}) {
+            if (i % 2 == 0) continue;
+            tower.others.push_back(of_mass({x, y + 1.1f, 0.0f}, {0.2f, 0.2f, 0.2f}, 0.1f));
+            tower.others.push_back(of_mass({x, y + 1.3f, 0.0f}, {0.2f, 0.2f, 0.2f}, 7.0f));
+        }
+    }
+    return tower;
+}
+
+/// Sub-steps are those that so high a tower needs, once the trial is over, in which it has the most anyway.
+void expect_to_stand(const Tower& tower, std::uint32_t least_substeps) {
+    World world({}, options_on(DeviceKind::Cpu));
+    const std::vector<BodyId> boxes = world.add(tower.bodies);
+    world.add(tower.others);
+    const std::vector<Pose> start = world.poses();
+    world.step(600);
+    const std::vector<Pose> end = world.poses();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const Vec3 drift = end[i].position - start[i].position;
+        EXPECT_LT(length(drift), 0.02f) << "box " << i;
+        EXPECT_LT(std::hypot(drift.x, drift.z), 0.001f) << "box " << i;
+    }
+    EXPECT_GE(world.report().substeps, least_substeps);
+}
+
+TEST(Columns, stand_where_the_loads_of_several_contacts_come_together) {
+    expect_to_stand(tower_that_joins(), 96);
+}
+
+TEST(Columns, stand_whatever_heavily_loaded_trifles_lie_on_them) {
+    expect_to_stand(tower_with_stones(), 48);
+}
+
+/// Its one contact is as heavily loaded as that below a tower of 31, which needs 24 sub-steps, and cannot buckle.
+TEST(Columns, of_a_single_contact_need_few_substeps) {
+    World world({}, options_on(DeviceKind::Cpu));
+    world.add(std::vector{ground(), of_mass({0.0f, 0.5f, 0.0f}, {1.0f, 1.0f, 1.0f}, 1000.0f),
+                          of_mass({0.0f, 2.0f, 0.0f}, {2.0f, 2.0f, 2.0f}, 30e3f)});
+    world.step(600);
+    EXPECT_LE(world.report().substeps, 16u);
+    EXPECT_LT(largest_speed(world), 1e-3f);
+}
+
 TALUS_ON_EVERY_DEVICE(ContactQuality);
 TALUS_ON_THE_CPU(LongContactQuality);
 

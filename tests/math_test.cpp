@@ -303,24 +303,26 @@ TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {
         before = substeps;
     }
     // A low column of heavily loaded contacts: 40 weights on a single one, and on ten.
-    EXPECT_EQ(wanted_substeps(40.0f, 1, p), 8u);
+    EXPECT_EQ(wanted_substeps(40.0f, 1, p), 12u);
     EXPECT_EQ(wanted_substeps(40.0f, 10, p), 12u);
     EXPECT_EQ(wanted_substeps(40.0f, 40, p), 32u);
     EXPECT_EQ(wanted_substeps(40.0f, 41, p), 32u) << "it is no higher than its load says";
-    EXPECT_EQ(wanted_substeps(1000.0f, 2, p), 24u) << "its contacts may sink by some millimetres";
+    EXPECT_EQ(wanted_substeps(1000.0f, 1, p), 48u) << "its contact may sink by 2 mm";
     Settings few;
     few.substeps = few.max_substeps = 7;
     EXPECT_EQ(wanted_substeps(500.0f, k_unknown_height, parameters_for(few)), 7u) << "a number of the caller's";
 }
 
 TEST(Math, the_height_of_a_column_is_told_from_above) {
-    EXPECT_EQ(height_of_column(20.0f, 0), k_least_height) << "nothing heavy stands on it";
-    EXPECT_EQ(height_of_column(20.0f, told_load(19.0f, 11)), 12u);
-    EXPECT_EQ(height_of_column(20.0f, told_load(10.0f, 11)), 12u) << "half of the load comes from there";
-    EXPECT_EQ(height_of_column(20.0f, told_load(9.9f, 11)), k_least_height);
-    EXPECT_EQ(height_of_column(20.0f, told_load(19.0f, k_unknown_height)), k_unknown_height);
-    EXPECT_EQ(height_of_column(k_most_weights, told_load(k_most_weights, 30)), 31u);
-    EXPECT_GT(told_load(12.5f, 1), told_load(12.0f, k_unknown_height)) << "the heaviest load is heard";
+    EXPECT_EQ(height_of_column(0, 0), 1u) << "nothing stands on it";
+    EXPECT_EQ(height_of_column(k_enough_told, 11), 12u);
+    EXPECT_EQ(height_of_column(k_enough_told - 1, 11), 1u) << "less than three times its own mass";
+    EXPECT_EQ(height_of_column(k_enough_told, k_unknown_height), k_unknown_height);
+    // 5.6 weights of the lighter of 1 kg and 2 kg are 2.8 times the heavier one's mass.
+    EXPECT_EQ(told_mass(5.6f, 0.5f, 1.0f), 44u);
+    EXPECT_EQ(told_mass(2.03f, 1.0f, 0.5f), 32u);
+    EXPECT_EQ(told_mass(2.03f, 1.0f, 0.0f), 32u) << "pressed by what cannot be pushed";
+    EXPECT_EQ(told_mass(k_most_weights, 1e6f, 1e-6f), k_enough_told) << "more would make no difference";
     EXPECT_EQ(idle_steps_of(make_history(2007, 255)), 2007u);
     EXPECT_EQ(height_of(make_history(2007, 255)), 255u);
 }

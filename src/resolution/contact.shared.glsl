@@ -288,9 +288,9 @@ inline vec4 faster_than(vec4 velocity, float speed)
 // The impulses of light bodies that stop a heavy one grow from sub-step to sub-step as those of a spring do, and fall as
 // slowly: they would throw it back as fast as it came. So where it leaves faster than it is pushed they fall as many
 // times faster as it is heavier. solver.md, Heavy on light.
-inline vec4 let_go_of_thrown(vec4 offset, vec4 velocity, NormalTarget target)
+inline vec4 let_go_of_thrown(vec4 offset, vec4 velocity, NormalTarget target, float restitution)
 {
-    bool throws = target.let_go > 0.0f;
+    bool throws = target.let_go > 0.0f && restitution == 0.0f; // else it is to be thrown
     if (!any_lane(throws)) return offset;
     vec4 thrown = faster_than(velocity, target.push_speed);
     precise vec4 less = offset - thrown * target.mass * target.let_go;
@@ -405,7 +405,7 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
     sweep.impulse = old.normal;
     s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.normal.hit_speed, sum4(sweep.impulse));
     NormalTarget aim = target.normal;
-    aim.offset = let_go_of_thrown(aim.offset, sweep.velocity, aim);
+    aim.offset = let_go_of_thrown(aim.offset, sweep.velocity, aim, rows.restitution);
     vec4 normal = solve_normals(sweep, rows, aim).impulse;
     precise vec4 normal_change = normal - old.normal;
     precise vec4 total = old.total + (normal - old.normal * target.old_share);

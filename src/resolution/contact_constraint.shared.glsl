@@ -106,26 +106,22 @@ inline uint colour_of_step(uint key, uint its_traits)
 
 // ---- the load ----
 
+// Where the normal is level either may be.
 inline bool is_b_below(Manifold manifold, Parameters p) { return dot3(manifold.normal, p.gravity) > 0.0f; }
-inline uint body_below(Manifold manifold, Parameters p)
-{
-    return is_b_below(manifold, p) ? manifold.body_b : manifold.body_a;
-}
+
 inline uint body_above(Manifold manifold, Parameters p)
 {
     return is_b_below(manifold, p) ? manifold.body_a : manifold.body_b;
 }
 
-inline bool tells_its_load(Manifold manifold) { return manifold.weights >= k_least_told; }
-
-// The sub-steps that a load asks for in the next step. `told`: what the body above was told in this one.
-inline Manifold follow_load(Manifold manifold, float weights, uint told, Parameters p)
+// The sub-steps that a load asks for in the next step. `height`: of the column that carries it.
+inline Manifold follow_load(Manifold manifold, float weights, uint height, Parameters p)
 {
     float mean = next_mean_load(manifold.weights, weights);
     uint idle_steps = idle_steps_of(manifold.history);
     bool grows = idle_steps >= k_growing;
     bool on_trial = idle_steps >= k_trial && !grows;
-    uint height = on_trial ? k_unknown_height : height_of_column(mean, told);
+    if (on_trial) height = k_unknown_height;
     uint wanted = wanted_substeps(mean, height, p);
     bool idle = on_trial || 2u * wanted <= manifold.substeps;
     if (wanted > manifold.substeps) {
@@ -147,14 +143,15 @@ inline Manifold follow_load(Manifold manifold, float weights, uint told, Paramet
     return manifold;
 }
 
-// Impulses of the whole step, and what follows from their load. `told`: see follow_load.
+// Impulses of the whole step, and what follows from their load. `height`: of the column that carries it.
 inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
-                               float inverse_mass_b, uint told, Parameters p)
+                               float inverse_mass_b, uint height, Parameters p)
 {
     precise float whole = float(c.substeps);
     precise vec3 friction = c.friction_impulse * whole;
     manifold.tangent_impulse_1 = friction.x;
     manifold.tangent_impulse_2 = friction.y;
     manifold.twist_impulse = friction.z;
-    return follow_load(manifold, weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p), told, p);
+    float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
+    return follow_load(manifold, weights, height, p);
 }

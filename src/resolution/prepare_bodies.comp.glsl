@@ -32,6 +32,8 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
+    told_loads[k_told_words * body + k_told_mass] = 0u;
+    told_loads[k_told_words * body + k_told_height] = 0u;
     BodyPose pose = unpack(poses[body]);
     bool asleep = parameters.rest_steps > 0u && is_movable(unpack(shapes[body])) && substeps[body] == 0u;
     uint flags = sleep_flags(pose.flags, asleep);
@@ -52,7 +54,6 @@ void main()
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
-    told_loads[body] = 0u;
     deltas[body] = pack(no_delta());
     warm_starts[body] = pack(no_warm_start(unpack(velocities[body])));
 }

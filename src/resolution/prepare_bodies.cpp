@@ -10,6 +10,8 @@ namespace talus::engine {
 
 static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(state.parameters.body_count, [&](uint body) {
+        state.told_loads[k_told_words * body + k_told_mass] = 0;
+        state.told_loads[k_told_words * body + k_told_height] = 0;
         BodyPose& pose = state.poses[body];
         const bool asleep =
             state.parameters.rest_steps > 0 && is_movable(state.shapes[body]) && state.substeps[body] == 0;
@@ -27,7 +29,6 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         state.inertias[body].traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
             state.inertias[body].traits |= k_trait_grouped;
-        state.told_loads[body] = 0;
         state.deltas[body] = no_delta();
         state.warm_starts[body] = no_warm_start(state.velocities[body]);
     });

@@ -41,20 +41,35 @@ float share_of_contact(Manifold manifold, uint pair, uint colour)
                         shares_of_hub(body_colours[body_word(hub, k_new_edges)], body_colours[body_word(hub, k_hub_word)]));
 }
 
+// To what contacts can push.
+void tell_load(Manifold manifold, float inverse_mass_a, float inverse_mass_b)
+{
+    bool b_below = is_b_below(manifold, parameters);
+    uint below = b_below ? manifold.body_b : manifold.body_a;
+    float inverse_mass_below = b_below ? inverse_mass_b : inverse_mass_a;
+    float inverse_mass_above = b_below ? inverse_mass_a : inverse_mass_b;
+    if (inverse_mass_below == 0.0) return;
+    uint mass = told_mass(manifold.weights, inverse_mass_below, inverse_mass_above);
+    if (mass == 0u) return;
+    atomicAdd(told_loads[k_told_words * below + k_told_mass], mass);
+    atomicMax(told_loads[k_told_words * below + k_told_height], height_of(manifold.history));
+}
+
 void main()
 {
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
     uint manifold_index = manifold_order[index];
     Manifold manifold = unpack(manifolds[manifold_index]);
-    if (tells_its_load(manifold))
-        atomicMax(told_loads[body_below(manifold, parameters)], told_load(manifold.weights, height_of(manifold.history)));
+    float inverse_mass_a = unpack(velocities[manifold.body_a]).inverse_mass;
+    float inverse_mass_b = unpack(velocities[manifold.body_b]).inverse_mass;
+    tell_load(manifold, inverse_mass_a, inverse_mass_b);
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
     uint colour = colour_of_key(manifold_keys[index]);
     ContactConstraint c =
         begin_constraint(manifold, manifold_index, colour, share_of_contact(manifold, manifold_index, colour),
-                         unpack(velocities[manifold.body_a]).inverse_mass, unpack(velocities[manifold.body_b]).inverse_mass, inertia_a, inertia_b);
+                         inverse_mass_a, inverse_mass_b, inertia_a, inertia_b);
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
         c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]));

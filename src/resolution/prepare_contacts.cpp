@@ -19,10 +19,19 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
                         word(k_whole_load) - word(k_unshared_load), shares_of_hub(word(k_new_edges), word(k_hub_word)));
 }
 
-static void tell_load(uint& told, const Manifold& manifold) {
-    const uint load = told_load(manifold.weights, height_of(manifold.history));
-    const std::atomic_ref shared(told);
-    for (uint before = shared.load(); before < load && !shared.compare_exchange_weak(before, load);) {
+/// To what contacts can push.
+static void tell_load(CpuState& state, const Manifold& manifold, float inverse_mass_a, float inverse_mass_b) {
+    const bool b_below = is_b_below(manifold, state.parameters);
+    const uint below = b_below ? manifold.body_b : manifold.body_a;
+    const float inverse_mass_below = b_below ? inverse_mass_b : inverse_mass_a;
+    const float inverse_mass_above = b_below ? inverse_mass_a : inverse_mass_b;
+    if (inverse_mass_below == 0.0f) return;
+    const uint mass = told_mass(manifold.weights, inverse_mass_below, inverse_mass_above);
+    if (mass == 0) return;
+    std::atomic_ref(state.told_loads[k_told_words * below + k_told_mass]).fetch_add(mass, std::memory_order_relaxed);
+    const std::atomic_ref highest(state.told_loads[k_told_words * below + k_told_height]);
+    const uint height = height_of(manifold.history);
+    for (uint before = highest.load(); before < height && !highest.compare_exchange_weak(before, height);) {
     }
 }
 
@@ -32,13 +41,14 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
         const Manifold& manifold = state.manifolds[manifold_index];
         const BodyInertia& inertia_a = state.inertias[manifold.body_a];
         const BodyInertia& inertia_b = state.inertias[manifold.body_b];
-        if (tells_its_load(manifold)) tell_load(state.told_loads[body_below(manifold, state.parameters)], manifold);
+        const float inverse_mass_a = state.velocities[manifold.body_a].inverse_mass;
+        const float inverse_mass_b = state.velocities[manifold.body_b].inverse_mass;
+        tell_load(state, manifold, inverse_mass_a, inverse_mass_b);
         const uint colour = colour_of_key(state.manifold_keys[index]);
         const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * manifold_index];
         ContactConstraint& c = state.constraints[index];
         c = begin_constraint(manifold, manifold_index, colour, share_of_contact(state, manifold_index, colour),
-                             state.velocities[manifold.body_a].inverse_mass,
-                             state.velocities[manifold.body_b].inverse_mass, inertia_a, inertia_b);
+                             inverse_mass_a, inverse_mass_b, inertia_a, inertia_b);
         for (uint i = 0; i < manifold.point_count; ++i)
             c = add_to_centre(c, points[i]);
         c = end_centre(c, state.poses[manifold.body_a].position, state.poses[manifold.body_b].position);

@@ -89,10 +89,13 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
 
 // A load of N weights is that of a tower of N boxes. One of 1 m boxes buckles beyond N = 6 n^(2/3) at n sub-steps
 // (solver.md), so that n follows N^1.5; the linear part keeps short towers from sinking by more than a centimetre or
-// two. Where no more than H contacts above each other carry the load, as under a heavy body on a light one, they are a
-// column of that height: it buckles as if n followed H sqrt(N), and sinks as if it followed sqrt(H N).
+// two. Where no more than H contacts above each other carry the load, they are a column of that height, with what it carries
+// beside itself on its end: that buckles it 7.84 / (pi^2 / 4) = 3.2 times as easily as its own weight. It sinks as if n followed
+// sqrt(H N), and a single contact under a heavy body by N g / (47 n)^2, which is to be less than 2 mm.
 const float k_substeps_against_sag = 0.5f;
+const float k_substeps_against_overlap = 1.5f;
 const float k_substeps_against_buckling = 0.095f;
+const float k_end_load = 3.2f; // Timoshenko and Gere, "Theory of Elastic Stability" (1961): of a column's own weight
 
 // More sub-steps are had after so many steps in a row that asked for more, and then no more than the next number in use:
 // contacts that become much stiffer while they are deep throw back what has pressed them together.
@@ -128,9 +131,11 @@ inline uint more_substeps(uint substeps, Parameters p)
 inline uint wanted_substeps(float weights, uint height, Parameters p)
 {
     precise float high = min(float(height), weights);
-    precise float against_buckling = k_substeps_against_buckling * high * square_root(weights);
+    precise float bending = high + k_end_load * (weights - high);
+    precise float against_buckling = k_substeps_against_buckling * high * square_root(bending);
     precise float against_sag = k_substeps_against_sag * square_root(high * weights);
-    float wanted = max(against_sag, against_buckling);
+    precise float against_overlap = k_substeps_against_overlap * square_root(weights);
+    float wanted = max(max(against_sag, against_overlap), against_buckling);
     for (uint level = 0u; level < 16u; level += 1u) {
         uint substeps = substep_level(level, p.least_substeps);
         if (substeps >= p.most_substeps) return p.most_substeps;
@@ -167,28 +172,26 @@ inline float next_mean_load(float mean, float newest)
 
 // ---- the height of what carries a load ----
 //
-// Contacts tell the body below them how heavily they are loaded, and the height of the column that they are the foot of.
-// A contact that carries no more than twice what the one above carries stands in the same column. So the height of a tower
-// is known from the top down, one contact a step.
+// Contacts tell the body below them what mass presses on them, and how high the column is that they are the foot of. Where a
+// body carries three times its own mass and more, what stands below it is part of the highest of these columns; else it is the
+// end load of a new one. So the height of a tower is known from the top down, one contact a step. In ToldLoads each body has
+// two words: k_told_mass, a sum, and k_told_height, a maximum.
 
-// Less is told to nobody, and counts as a column of so many: 8 sub-steps are enough for it anyway.
-const float k_least_told = 8.0f;
-const uint k_least_height = 8u;
 const uint k_unknown_height = 255u; // also of all that are higher
 
-// What a contact tells, so that the largest word is that of the heaviest load.
-inline uint told_load(float weights, uint height)
+// 16 for a mass like the body's own. No contact needs to tell more than what is enough, and so a sum stays a number.
+const uint k_enough_told = 48u;
+
+// `weights`: of the contact, in those of its lighter body.
+inline uint told_mass(float weights, float inverse_mass_below, float inverse_mass_above)
 {
-    precise float sixteenths = min(weights, k_most_weights) * 16.0f;
-    return uint(sixteenths) << 8u | min(height, k_unknown_height);
+    precise float own_masses = weights * inverse_mass_below * reciprocal(max(inverse_mass_below, inverse_mass_above));
+    return uint(min(16.0f * own_masses, float(k_enough_told)));
 }
 
-// `told`: by the contacts above, 0 if they tell nothing.
-inline uint height_of_column(float weights, uint told)
+inline uint height_of_column(uint mass_told, uint height_told)
 {
-    uint height = told & 255u;
-    precise float weights_above = float(told >> 8u) * 0.0625f;
-    return 2.0f * weights_above < max(weights, k_least_told) ? k_least_height : min(height + 1u, k_unknown_height);
+    return mass_told < k_enough_told ? 1u : min(height_told + 1u, k_unknown_height);
 }
 
 // Manifold::history: steps in a row in which half the sub-steps would have done, and the height of the column.

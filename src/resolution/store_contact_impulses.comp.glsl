@@ -38,9 +38,11 @@ void main()
     }
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
+    uint told = k_told_words * body_above(manifold, parameters);
     Manifold finished = finish_manifold(manifold, c, impulse, unpack(properties[c.body_a]).inverse_mass,
                                         unpack(properties[c.body_b]).inverse_mass,
-                                        told_loads[body_above(manifold, parameters)], parameters);
+                                        height_of_column(told_loads[told + k_told_mass], told_loads[told + k_told_height]),
+                                        parameters);
     manifolds[c.manifold] = pack(finished);
     if (finished.substeps != manifold.substeps) counters[k_counter_graph_due] = 1u; // of the next step
 }

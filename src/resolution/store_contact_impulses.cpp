@@ -20,9 +20,10 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch&) {
         }
         manifold.colour = colour_of_step(state.manifold_keys[index], c.traits);
         const uint substeps = manifold.substeps;
+        const uint* const told = &state.told_loads[k_told_words * body_above(manifold, state.parameters)];
         manifold = finish_manifold(manifold, c, impulse, state.properties[c.body_a].inverse_mass,
                                    state.properties[c.body_b].inverse_mass,
-                                   state.told_loads[body_above(manifold, state.parameters)], state.parameters);
+                                   height_of_column(told[k_told_mass], told[k_told_height]), state.parameters);
         if (manifold.substeps != substeps) // of the next step
             std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
     });
