@@ -122,7 +122,7 @@ struct NormalTarget {
     vec4 offset;
     vec4 lower;
     vec4 hit_speed; // m/s: a point that closes faster has been hit
-    float let_go;     // see let_go_of_thrown
+    float let_go; // see let_go_of_thrown
     float push_speed; // m/s
 };
 
