@@ -65,6 +65,11 @@ inline BodyDefinition with_material(BodyDefinition definition, float friction, f
     return definition;
 }
 
+inline BodyDefinition weighing(BodyDefinition definition, float mass) {
+    definition.mass = mass;
+    return definition;
+}
+
 inline std::vector<BodyDefinition> bodies_of(std::string_view scene_name) {
     std::vector<BodyDefinition> definitions;
     for (const scenes::NamedBody& body : scenes::make_scene(scene_name).bodies)

@@ -299,12 +299,6 @@ TEST_P(LongContactQuality, the_heavy_may_stand_on_the_light) {
 
 // ---- columns ----
 
-BodyDefinition of_mass(Vec3 place, Vec3 size, float mass) {
-    BodyDefinition body = box_at(place, size);
-    body.mass = mass;
-    return body;
-}
-
 /// Bodies in the order of the tower, and others that only lie on it.
 struct Tower {
     std::vector<BodyDefinition> bodies{ground()}, others;
@@ -318,11 +312,11 @@ Tower tower_that_joins() {
         if (storey % 2 == 0) {
             for (const float x : {-0.6f, 0.6f})
                 for (const float z : {-0.6f, 0.6f})
-                    tower.bodies.push_back(of_mass({x, y + 0.5f, z}, {1.0f, 1.0f, 1.0f}, 1000.0f));
+                    tower.bodies.push_back(weighing(box_at({x, y + 0.5f, z}, {1.0f, 1.0f, 1.0f}), 1000.0f));
         } else {
-            tower.bodies.push_back(of_mass({0.0f, y + 0.5f, 0.0f}, {1.0f, 1.0f, 1.0f}, 1000.0f));
+            tower.bodies.push_back(weighing(box_at({0.0f, y + 0.5f, 0.0f}, {1.0f, 1.0f, 1.0f}), 1000.0f));
         }
-        tower.bodies.push_back(of_mass({0.0f, y + 1.25f, 0.0f}, {2.2f, 0.5f, 2.2f}, 1000.0f));
+        tower.bodies.push_back(weighing(box_at({0.0f, y + 1.25f, 0.0f}, {2.2f, 0.5f, 2.2f}), 1000.0f));
         y += 1.5f;
     }
     return tower;
@@ -334,11 +328,12 @@ Tower tower_with_stones() {
     Tower tower;
     for (int i = 0; i < 60; ++i) {
         const float y = static_cast<float>(i);
-        tower.bodies.push_back(of_mass({0.0f, y + 0.5f, 0.0f}, {i % 2 == 0 ? 1.0f : 2.0f, 1.0f, 1.0f}, 1000.0f));
+        tower.bodies.push_back(
+            weighing(box_at({0.0f, y + 0.5f, 0.0f}, {i % 2 == 0 ? 1.0f : 2.0f, 1.0f, 1.0f}), 1000.0f));
         for (const float x : {-0.75f, 0.75f}) {
             if (i % 2 == 0) continue;
-            tower.others.push_back(of_mass({x, y + 1.1f, 0.0f}, {0.2f, 0.2f, 0.2f}, 0.1f));
-            tower.others.push_back(of_mass({x, y + 1.3f, 0.0f}, {0.2f, 0.2f, 0.2f}, 7.0f));
+            tower.others.push_back(weighing(box_at({x, y + 1.1f, 0.0f}, {0.2f, 0.2f, 0.2f}), 0.1f));
+            tower.others.push_back(weighing(box_at({x, y + 1.3f, 0.0f}, {0.2f, 0.2f, 0.2f}), 7.0f));
         }
     }
     return tower;
@@ -371,8 +366,8 @@ TEST(Columns, stand_whatever_heavily_loaded_trifles_lie_on_them) {
 /// Its one contact is as heavily loaded as that below a tower of 31, which needs 24 sub-steps, and cannot buckle.
 TEST(Columns, of_a_single_contact_need_few_substeps) {
     World world({}, options_on(DeviceKind::Cpu));
-    world.add(std::vector{ground(), of_mass({0.0f, 0.5f, 0.0f}, {1.0f, 1.0f, 1.0f}, 1000.0f),
-                          of_mass({0.0f, 2.0f, 0.0f}, {2.0f, 2.0f, 2.0f}, 30e3f)});
+    world.add(std::vector{ground(), weighing(box_at({0.0f, 0.5f, 0.0f}, {1.0f, 1.0f, 1.0f}), 1000.0f),
+                          weighing(box_at({0.0f, 2.0f, 0.0f}, {2.0f, 2.0f, 2.0f}), 30e3f)});
     world.step(600);
     EXPECT_LE(world.report().substeps, 16u);
     EXPECT_LT(largest_speed(world), 1e-3f);

@@ -162,11 +162,6 @@ std::vector<BodyDefinition> boxes_on_ground(int side, int layers) {
     return bodies;
 }
 
-BodyDefinition weighing(BodyDefinition definition, float mass) {
-    definition.mass = mass;
-    return definition;
-}
-
 /// What is hit by a heavy body must not be left with its momentum, and must not be stiffer in the next step.
 TEST(EnergyOfHeavyBodies, is_not_gained_when_they_fall_on_light_ones) {
     struct Target {

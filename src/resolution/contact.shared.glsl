@@ -121,8 +121,8 @@ struct NormalTarget {
     vec4 mass;
     vec4 offset;
     vec4 lower;
-    vec4 hit_speed; // m/s: a point that closes faster has been hit
-    float let_go; // see let_go_of_thrown
+    vec4 hit_speed;   // m/s: a point that closes faster has been hit
+    float let_go;     // see let_go_of_thrown
     float push_speed; // m/s
 };
 
@@ -176,7 +176,7 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
     target.mass = vec4(x.x, y.x, z.x, w.x);
     target.offset = vec4(x.y, y.y, z.y, w.y);
     target.lower = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    target.let_go = substep.let_go;
+    target.let_go = choose(rows.restitution > 0.0f, 0.0f, substep.let_go); // what bounces is to be thrown
     target.push_speed = substep.push_speed;
     target.hit_speed = vec4(hit_speed(separation.x, rows.normal_mass.x, rows.restitution, inv_h, p),
                             hit_speed(separation.y, rows.normal_mass.y, rows.restitution, inv_h, p),
@@ -288,13 +288,13 @@ inline vec4 faster_than(vec4 velocity, float speed)
 // The impulses of light bodies that stop a heavy one grow from sub-step to sub-step as those of a spring do, and fall as
 // slowly: they would throw it back as fast as it came. So where it leaves faster than it is pushed they fall as many
 // times faster as it is heavier. solver.md, Heavy on light.
-inline vec4 let_go_of_thrown(vec4 offset, vec4 velocity, NormalTarget target, float restitution)
+inline NormalTarget let_go_of_thrown(NormalTarget target, vec4 velocity)
 {
-    bool throws = target.let_go > 0.0f && restitution == 0.0f; // else it is to be thrown
-    if (!any_lane(throws)) return offset;
+    if (!any_lane(target.let_go > 0.0f)) return target;
     vec4 thrown = faster_than(velocity, target.push_speed);
-    precise vec4 less = offset - thrown * target.mass * target.let_go;
-    return choose(throws, less, offset);
+    precise vec4 less = target.offset - thrown * target.mass * target.let_go;
+    target.offset = choose(target.let_go > 0.0f, less, target.offset);
+    return target;
 }
 
 struct NormalSweep {
@@ -404,9 +404,7 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
     sweep.velocity = normal_velocities(after_friction(velocity, rows, friction_change), rows);
     sweep.impulse = old.normal;
     s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.normal.hit_speed, sum4(sweep.impulse));
-    NormalTarget aim = target.normal;
-    aim.offset = let_go_of_thrown(aim.offset, sweep.velocity, aim, rows.restitution);
-    vec4 normal = solve_normals(sweep, rows, aim).impulse;
+    vec4 normal = solve_normals(sweep, rows, let_go_of_thrown(target.normal, sweep.velocity)).impulse;
     precise vec4 normal_change = normal - old.normal;
     precise vec4 total = old.total + (normal - old.normal * target.old_share);
 

@@ -114,6 +114,23 @@ inline uint body_above(Manifold manifold, Parameters p)
     return is_b_below(manifold, p) ? manifold.body_a : manifold.body_b;
 }
 
+// What a manifold tells the body below it, see softness.shared.glsl.
+struct LoadBelow {
+    uint body;
+    uint mass; // 0: it tells nothing, as to what cannot be pushed
+};
+
+inline LoadBelow load_below(Manifold manifold, float inverse_mass_a, float inverse_mass_b, Parameters p)
+{
+    bool b_below = is_b_below(manifold, p);
+    float inverse_mass_below = b_below ? inverse_mass_b : inverse_mass_a;
+    float inverse_mass_above = b_below ? inverse_mass_a : inverse_mass_b;
+    LoadBelow load;
+    load.body = b_below ? manifold.body_b : manifold.body_a;
+    load.mass = inverse_mass_below > 0.0f ? told_mass(manifold.weights, inverse_mass_below, inverse_mass_above) : 0u;
+    return load;
+}
+
 // The sub-steps that a load asks for in the next step. `height`: of the column that carries it.
 inline Manifold follow_load(Manifold manifold, float weights, uint height, Parameters p)
 {

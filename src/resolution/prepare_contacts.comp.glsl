@@ -41,18 +41,11 @@ float share_of_contact(Manifold manifold, uint pair, uint colour)
                         shares_of_hub(body_colours[body_word(hub, k_new_edges)], body_colours[body_word(hub, k_hub_word)]));
 }
 
-// To what contacts can push.
-void tell_load(Manifold manifold, float inverse_mass_a, float inverse_mass_b)
+void tell_load(LoadBelow load, uint height)
 {
-    bool b_below = is_b_below(manifold, parameters);
-    uint below = b_below ? manifold.body_b : manifold.body_a;
-    float inverse_mass_below = b_below ? inverse_mass_b : inverse_mass_a;
-    float inverse_mass_above = b_below ? inverse_mass_a : inverse_mass_b;
-    if (inverse_mass_below == 0.0) return;
-    uint mass = told_mass(manifold.weights, inverse_mass_below, inverse_mass_above);
-    if (mass == 0u) return;
-    atomicAdd(told_loads[k_told_words * below + k_told_mass], mass);
-    atomicMax(told_loads[k_told_words * below + k_told_height], height_of(manifold.history));
+    if (load.mass == 0u) return;
+    atomicAdd(told_loads[k_told_words * load.body + k_told_mass], load.mass);
+    atomicMax(told_loads[k_told_words * load.body + k_told_height], height);
 }
 
 void main()
@@ -63,7 +56,7 @@ void main()
     Manifold manifold = unpack(manifolds[manifold_index]);
     float inverse_mass_a = unpack(velocities[manifold.body_a]).inverse_mass;
     float inverse_mass_b = unpack(velocities[manifold.body_b]).inverse_mass;
-    tell_load(manifold, inverse_mass_a, inverse_mass_b);
+    tell_load(load_below(manifold, inverse_mass_a, inverse_mass_b, parameters), height_of(manifold.history));
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
     uint colour = colour_of_key(manifold_keys[index]);

@@ -19,18 +19,11 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
                         word(k_whole_load) - word(k_unshared_load), shares_of_hub(word(k_new_edges), word(k_hub_word)));
 }
 
-/// To what contacts can push.
-static void tell_load(CpuState& state, const Manifold& manifold, float inverse_mass_a, float inverse_mass_b) {
-    const bool b_below = is_b_below(manifold, state.parameters);
-    const uint below = b_below ? manifold.body_b : manifold.body_a;
-    const float inverse_mass_below = b_below ? inverse_mass_b : inverse_mass_a;
-    const float inverse_mass_above = b_below ? inverse_mass_a : inverse_mass_b;
-    if (inverse_mass_below == 0.0f) return;
-    const uint mass = told_mass(manifold.weights, inverse_mass_below, inverse_mass_above);
-    if (mass == 0) return;
-    std::atomic_ref(state.told_loads[k_told_words * below + k_told_mass]).fetch_add(mass, std::memory_order_relaxed);
-    const std::atomic_ref highest(state.told_loads[k_told_words * below + k_told_height]);
-    const uint height = height_of(manifold.history);
+static void tell_load(CpuState& state, const LoadBelow& load, uint height) {
+    if (load.mass == 0) return;
+    uint* const told = &state.told_loads[k_told_words * load.body];
+    std::atomic_ref(told[k_told_mass]).fetch_add(load.mass, std::memory_order_relaxed);
+    const std::atomic_ref highest(told[k_told_height]);
     for (uint before = highest.load(); before < height && !highest.compare_exchange_weak(before, height);) {
     }
 }
@@ -43,7 +36,8 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
         const BodyInertia& inertia_b = state.inertias[manifold.body_b];
         const float inverse_mass_a = state.velocities[manifold.body_a].inverse_mass;
         const float inverse_mass_b = state.velocities[manifold.body_b].inverse_mass;
-        tell_load(state, manifold, inverse_mass_a, inverse_mass_b);
+        tell_load(state, load_below(manifold, inverse_mass_a, inverse_mass_b, state.parameters),
+                  height_of(manifold.history));
         const uint colour = colour_of_key(state.manifold_keys[index]);
         const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * manifold_index];
         ContactConstraint& c = state.constraints[index];

@@ -125,11 +125,6 @@ const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
 const uint k_arrival_words = 3u; // of Arrivals, see primitives/grid_barrier.glsl
-
-// Words of a body in ToldLoads, see resolution/softness.shared.glsl.
-const uint k_told_mass = 0u;
-const uint k_told_height = 1u;
-const uint k_told_words = 2u;
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
 const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island
 // In a larger world a work group solves several islands: those that begin within a window of so many bodies, in the order
@@ -138,3 +133,8 @@ const uint k_group_window = 48u;
 const uint k_most_grouped = 208u; // bodies of an island that a group can solve
 const uint k_group_room = k_group_window + k_most_grouped; // bodies
 const uint k_most_single = k_island_bodies; // bodies of an island that has a group of its own
+
+// Words of a body in ToldLoads, see resolution/softness.shared.glsl.
+const uint k_told_mass = 0u;
+const uint k_told_height = 1u;
+const uint k_told_words = 2u;
