@@ -29,16 +29,18 @@ std::vector<const LanePasses*> all_lane_passes() {
     return all;
 }
 
-/// Constraints each of two bodies of their own, or of one and the static body that all share.
+/// Constraints each of two bodies of their own, or of one and a body that many share: a static one, or a hub.
 struct Items {
-    static constexpr uint k_count = 40;
+    static constexpr uint k_count = 40, k_static_body = 2 * k_count, k_hub = k_static_body + 1, k_bodies = k_hub + 1;
 
     explicit Items(std::uint32_t seed, float restitution) : random(seed) {
-        for (uint i = 0; i < 2 * k_count + 1; ++i)
+        for (uint i = 0; i < k_bodies; ++i)
             add_body(i);
         for (uint i = 0; i < k_count; ++i)
             add_constraint(i, restitution);
         counters.resize(k_counter_words);
+        hub_changes.resize(k_count, no_change(k_none));
+        colour_offsets.resize(k_overflow_colour + 2, 0);
     }
 
     CpuState state() {
@@ -52,7 +54,7 @@ struct Items {
         s.parameters.restitution_threshold = 1.0f;
         s.parameters.max_linear_speed = 500.0f;
         s.parameters.max_angular_speed = 4.0f; // some are faster
-        s.parameters.body_count = 2 * k_count + 1;
+        s.parameters.body_count = k_bodies;
         s.poses = {poses.data(), poses.size()};
         s.velocities = {velocities.data(), velocities.size()};
         s.shapes = {shapes.data(), shapes.size()};
@@ -63,6 +65,8 @@ struct Items {
         s.deltas = {deltas.data(), deltas.size()};
         s.constraints = {constraints.data(), constraints.size()};
         s.counters = {counters.data(), counters.size()};
+        s.hub_changes = {hub_changes.data(), hub_changes.size()};
+        s.colour_offsets = {colour_offsets.data(), colour_offsets.size()};
         return s;
     }
 
@@ -70,7 +74,7 @@ struct Items {
     vec3 vector(float size) { return {number(size), number(size), number(size)}; }
 
     void add_body(uint i) {
-        const bool is_static = i == 2 * k_count;
+        const bool is_static = i == k_static_body;
         const float inverse_mass = is_static ? 0.0f : 1.0f + number(0.5f);
         const vec4 rotation = normalise_quaternion(vec4(number(1.0f), number(1.0f), number(1.0f), 1.0f));
         poses.push_back({vector(5.0f), i % 17 == 16 ? k_body_frozen : 0u, rotation});
@@ -91,8 +95,9 @@ struct Items {
 
     void add_constraint(uint i, float restitution) {
         ContactConstraint c{};
-        c.body_a = 2 * i;
-        c.body_b = i % 4 == 3 ? 2 * k_count : 2 * i + 1;
+        const bool a_is_hub = i % 5 == 2, b_is_static = i % 4 == 3, b_is_hub = i % 8 == 5 && !a_is_hub;
+        c.body_a = a_is_hub ? k_hub : 2 * i;
+        c.body_b = b_is_static ? k_static_body : b_is_hub ? k_hub : 2 * i + 1;
         c.point_count = 1 + i % 4;
         const vec3 n = vector(1.0f);
         c.normal = scale3(n, inverse_sqrt(dot3(n, n)));
@@ -102,8 +107,10 @@ struct Items {
         c.centre_b = vector(0.5f);
         c.inverse_masses = velocities[c.body_a].inverse_mass + velocities[c.body_b].inverse_mass;
         c.gap = vector(0.001f);
-        c.traits =
-            k_trait_movable | (i % 4 == 3 ? 0u : k_trait_movable << k_traits_of_b) | (i % 6 == 5 ? k_trait_round : 0u);
+        c.traits = k_trait_movable | (b_is_static ? 0u : k_trait_movable << k_traits_of_b) |
+                   (i % 6 == 5 ? k_trait_round : 0u) | (a_is_hub ? k_trait_hub : 0u) |
+                   (b_is_hub ? k_trait_hub << k_traits_of_b : 0u);
+        c.hub_share = 0.1f + 0.05f * static_cast<float>(i % 3);
         c.friction_mass = vec3(0.4f, 0.4f, 0.1f);
         c.substeps = i % 7 == 6 ? 2 : 8;
         for (int k = 0; k < static_cast<int>(c.point_count); ++k) {
@@ -131,6 +138,8 @@ struct Items {
     std::vector<BodyDelta> deltas;
     std::vector<ContactConstraint> constraints;
     std::vector<uint> counters;
+    std::vector<HubChange> hub_changes;
+    std::vector<uint> colour_offsets;
 };
 
 template <typename T> void expect_same(const std::vector<T>& one, const std::vector<T>& lanes, const char* what) {
@@ -145,6 +154,7 @@ void expect_same(const Items& one, const Items& lanes) {
     expect_same(one.constraints, lanes.constraints, "constraint");
     expect_same(one.poses, lanes.poses, "pose");
     expect_same(one.counters, lanes.counters, "counter");
+    expect_same(one.hub_changes, lanes.hub_changes, "change of a hub");
 }
 
 std::vector<uint> first_items(uint count) {
@@ -198,7 +208,7 @@ TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
     const FlushDenormals flush;
     for (const LanePasses* passes : all_lane_passes()) {
         for (const uint substep : {0u, 1u, 2u, 3u, 8u, 9u}) {
-            for (const uint count : {1u, 7u, 8u, 2 * Items::k_count + 1}) {
+            for (const uint count : {1u, 7u, 8u, Items::k_bodies}) {
                 SCOPED_TRACE(std::to_string(passes->lanes) + " lanes, sub-step " + std::to_string(substep));
                 Items one(count, 0.0f), lanes(count, 0.0f);
                 CpuState one_state = one.state(), lanes_state = lanes.state();

@@ -4,6 +4,16 @@
 
 // ---- from a manifold to a constraint ----
 
+// Of both bodies. In the other colours a hub is a body as others are.
+inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
+{
+    uint mask = k_trait_movable | k_trait_round;
+    if (is_hub_colour(colour)) mask |= k_trait_hub;
+    uint traits = (a.traits & mask) | ((b.traits & mask) << k_traits_of_b);
+    if (((a.traits | b.traits) & k_trait_hub) != 0u && colour < k_first_hub_colour) traits |= k_trait_whole_hub;
+    return traits;
+}
+
 // Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
 // cannot be pushed: the other's number holds.
 inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, float hub_share,

@@ -5,16 +5,6 @@
 // and inertia (hub_load.shared.glsl). What they do to their shares is then added up: the hub moves as their weighted mean,
 // and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid Body Simulation", 2012).
 
-// Of both bodies. In the other colours a hub is a body as others are.
-inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
-{
-    uint mask = k_trait_movable | k_trait_round;
-    if (is_hub_colour(colour)) mask |= k_trait_hub;
-    uint traits = (a.traits & mask) | ((b.traits & mask) << k_traits_of_b);
-    if (((a.traits | b.traits) & k_trait_hub) != 0u && colour < k_first_hub_colour) traits |= k_trait_whole_hub;
-    return traits;
-}
-
 inline float share_inverse_mass(float inverse_mass, float share, uint its_traits)
 {
     precise float of_share = inverse_mass * reciprocal(share);

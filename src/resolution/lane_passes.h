@@ -10,10 +10,10 @@ namespace talus::engine {
 inline constexpr uint k_most_lanes = 8;
 
 /// Both functions treat the items `indices`, at most `lanes` of them, and have a bit set in their result for each that
-/// they have left alone: what is rare, as hits and hubs, is for the functions that treat one item.
+/// they have left alone: what is rare, as hits, is for the functions that treat one item.
 struct LanePasses {
     uint lanes; ///< items side by side
-    /// See pass_over_constraint. No two constraints may share a body that can be pushed.
+    /// See pass_over_constraint. No two constraints may share a body that can be pushed, but a hub.
     uint (*over_constraints)(const CpuState&, ContactPass, uint substep, const uint* indices, uint count);
     /// See integrate_body.
     uint (*over_bodies)(const CpuState&, uint substep, const uint* indices, uint count);

@@ -134,7 +134,23 @@ TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places,
 
 struct Places {
     std::uint32_t constraint[k_lanes], body_a[k_lanes], body_b[k_lanes];
+    std::uint32_t hub_change[k_lanes]; ///< of constraints of hubs
 };
+
+/// As in contact_passes.h.
+TALUS_LANE void put_velocity(const CpuState& state, const Places& places, const std::uint32_t* bodies,
+                             std::uint32_t lanes, ULanes body, ULanes its_traits, Lanes hub_share,
+                             const BodyVelocity& before, const BodyVelocity& after) {
+    const std::uint32_t of_hubs = bits_of((its_traits & k_trait_hub) != 0u);
+    put_velocities(state, bodies, lanes & ~of_hubs, after);
+    const std::uint32_t shares = lanes & of_hubs & bits_of(after.inverse_mass != 0.0f);
+    if (shares == 0) return;
+    const HubChange change = change_of_hub(body, before, after, hub_share);
+    scatter(state.hub_changes.data, places.hub_change, 0, shares,
+            {change.linear.x, change.linear.y, change.linear.z, uintBitsToFloat(change.body)});
+    scatter(state.hub_changes.data, places.hub_change, 1, shares,
+            {change.angular.x, change.angular.y, change.angular.z, change.reserved});
+}
 
 /// As pass_over_constraint in contact_passes.h.
 inline std::uint32_t pass_over_constraints(const CpuState& state, ContactPass pass, std::uint32_t substep,
@@ -147,29 +163,32 @@ inline std::uint32_t pass_over_constraints(const CpuState& state, ContactPass pa
         places.constraint[lane] = index;
         places.body_a[lane] = c.body_a;
         places.body_b[lane] = c.body_b;
-        if (lane >= count || substep >= c.substeps) continue;
-        const bool hub = (c.traits & (k_trait_hub | k_trait_hub << engine::k_traits_of_b)) != 0;
-        (hub ? left_alone : active) |= 1u << lane;
+        if (lane < count && substep < c.substeps) active |= 1u << lane;
+        if ((c.traits & (k_trait_hub | k_trait_hub << engine::k_traits_of_b)) != 0)
+            places.hub_change[lane] = index - state.colour_offsets[k_first_hub_colour];
     }
-    if (active == 0) return left_alone;
+    if (active == 0) return 0;
 
     const ContactConstraint c = constraints_at(state, places.constraint);
     const ManifoldRows rows = make_rows(c, inertias_at(state, places.body_a), inertias_at(state, places.body_b));
-    ManifoldState s{
+    const ManifoldState before{
         {velocities_at(state, places.body_a), velocities_at(state, places.body_b)}, make_impulses(c), false};
+    ManifoldState s = before;
     if (pass == ContactPass::WarmStart) {
         s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
     } else {
         const PassTarget target = target_of_pass(pass, c, rows, s.impulses, deltas_at(state, places.body_a),
                                                  deltas_at(state, places.body_b), state.parameters);
         s = solve_manifold(s, rows, target);
-        const std::uint32_t unusual = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
-        active &= ~unusual;
-        left_alone |= unusual;
+        left_alone = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
+        active &= ~left_alone;
         put_impulses(state, places.constraint, active, s.impulses, c);
     }
-    put_velocities(state, places.body_a, active, s.velocities.a);
-    put_velocities(state, places.body_b, active, s.velocities.b);
+    const ULanes traits_of_b = c.traits >> k_traits_of_b;
+    put_velocity(state, places, places.body_a, active, c.body_a, c.traits, c.hub_share, before.velocities.a,
+                 s.velocities.a);
+    put_velocity(state, places, places.body_b, active, c.body_b, traits_of_b, c.hub_share, before.velocities.b,
+                 s.velocities.b);
     return left_alone;
 }
 

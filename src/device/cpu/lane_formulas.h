@@ -35,6 +35,7 @@ using engine::Parameters; // the same for all lanes
 #include "resolution/softness.shared.glsl"
 
 #include "resolution/body.shared.glsl"
+#include "resolution/hub.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 
 struct NormalSweep;
