@@ -24,7 +24,7 @@ void run_stage(Device& device, Stage stage, const StepPlan& plan) {
     case Stage::Solve:
         return solve(device, plan); // sub-steps: velocities and movements
     case Stage::StoreImpulses:
-        return store_impulses(device); // for the next step's warm start
+        return store_impulses(device, plan); // for the next step's warm start
     case Stage::Finish:
         return finish(device, plan); // contact events, new poses
     case Stage::count:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
+// args.x, args.y: the first pair that is wanted, and how many are.
 // Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, BodyColours, Velocities, Inertias.
 // Writes: Constraints, ToldLoads.
 // Needs: barriers after plan_colours and prepare_bodies.
@@ -53,6 +54,7 @@ void main()
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
     uint manifold_index = manifold_order[index];
+    if (!is_among(manifold_index, args.x, args.y)) return;
     Manifold manifold = unpack(manifolds[manifold_index]);
     float inverse_mass_a = unpack(velocities[manifold.body_a]).inverse_mass;
     float inverse_mass_b = unpack(velocities[manifold.body_b]).inverse_mass;

@@ -28,9 +28,10 @@ static void tell_load(CpuState& state, const LoadBelow& load, uint height) {
     }
 }
 
-static void prepare_contacts_on_cpu(CpuState& state, const Launch&) {
+static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
         const uint manifold_index = state.manifold_order[index];
+        if (!is_among(manifold_index, launch.args[0], launch.args[1])) return;
         const Manifold& manifold = state.manifolds[manifold_index];
         const BodyInertia& inertia_a = state.inertias[manifold.body_a];
         const BodyInertia& inertia_b = state.inertias[manifold.body_b];

@@ -17,6 +17,13 @@ static uint manifold_key_bits(const StepPlan& plan) {
     return k_colour_bits + std::bit_width(plan.small ? k_island_bodies : count_groups(plan.body_count) + 1);
 }
 
+/// Launches a kernel whose items are manifolds in the order of colours, for some pairs after the others: for those with
+/// indices from args[0] on, args[1] of them.
+static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel& kernel) {
+    for (uint first = 0; first < plan.pair_capacity; first += plan.near_pairs)
+        device.run({.kernel = kernel, .slot = k_dispatch_manifolds, .args = {first, plan.near_pairs}});
+}
+
 /// The islands of a large world, and which of them a work group solves.
 static void find_island_groups(Device& device, const StepPlan& plan) {
     device.run({.kernel = begin_islands, .items = plan.body_count});
@@ -63,7 +70,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
 
 void prepare(Device& device, const StepPlan& plan) {
     device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.has_islands(), plan.has_groups()}});
-    device.run({.kernel = prepare_contacts, .slot = k_dispatch_manifolds});
+    run_on_near_pairs(device, plan, prepare_contacts);
 }
 
 /// One pass over all manifolds that have this sub-step, colour by colour; those of hubs and the overflow set come last.
@@ -100,8 +107,8 @@ void solve(Device& device, const StepPlan& plan) {
         [&](ContactPass pass, uint substep) { pass_over_contacts(device, plan, pass, substep); });
 }
 
-void store_impulses(Device& device) {
-    device.run({.kernel = store_contact_impulses, .slot = k_dispatch_manifolds});
+void store_impulses(Device& device, const StepPlan& plan) {
+    run_on_near_pairs(device, plan, store_contact_impulses);
 }
 
 } // namespace talus::engine

@@ -19,7 +19,7 @@ void prepare(Device&, const StepPlan&);
 /// All sub-steps.
 void solve(Device&, const StepPlan&);
 /// Impulses and colours go back to the manifolds, for the next step's warm start.
-void store_impulses(Device&);
+void store_impulses(Device&, const StepPlan&);
 
 extern const Kernel clear_colours;
 extern const Kernel keep_colours;

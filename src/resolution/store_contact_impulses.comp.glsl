@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: its impulses and its colour go back to where the next step, and
 // the caller, find them. The load on it decides how many sub-steps it asks for next.
-// Reads: Counters, Constraints, ManifoldKeys, Properties, ToldLoads.
+// args.x, args.y: the first pair that is wanted, and how many are.
+// Reads: Counters, Constraints, ManifoldKeys, ManifoldOrder, Properties, ToldLoads.
 // Writes: ManifoldPoints and Manifolds (impulses, colour, load, sub-steps); Counters, where sub-steps are others than before.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
@@ -19,6 +20,7 @@ layout(local_size_x = 64) in;
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
+layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer ToldLoads { uint told_loads[]; };
 layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
@@ -28,6 +30,7 @@ void main()
 {
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
+    if (!is_among(manifold_order[index], args.x, args.y)) return;
     ContactConstraint c = unpack_ContactConstraint(constraints, index);
     vec4 impulse = vec4(0.0);
     for (uint i = 0u; i < 4u; ++i) {

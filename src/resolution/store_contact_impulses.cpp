@@ -8,8 +8,9 @@
 
 namespace talus::engine {
 
-static void store_contact_impulses_on_cpu(CpuState& state, const Launch&) {
+static void store_contact_impulses_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
+        if (!is_among(state.manifold_order[index], launch.args[0], launch.args[1])) return;
         const ContactConstraint& c = state.constraints[index];
         Manifold& manifold = state.manifolds[c.manifold];
         vec4 impulse(0.0f);
