@@ -142,6 +142,10 @@ struct Items {
     std::vector<uint> colour_offsets;
 };
 
+struct alignas(64) Line {
+    std::byte bytes[64];
+};
+
 template <typename T> void expect_same(const std::vector<T>& one, const std::vector<T>& lanes, const char* what) {
     for (std::size_t i = 0; i < one.size(); ++i)
         EXPECT_EQ(std::memcmp(&one[i], &lanes[i], sizeof(T)), 0) << what << ' ' << i;
@@ -190,10 +194,12 @@ TEST(Lanes, pass_over_contacts_with_the_bits_of_one_at_a_time) {
                     const std::vector<uint> indices = first_items(count);
                     for (const uint i : indices)
                         pass_over_constraint(one_state, pass, 3, i);
+                    std::vector<Line> batch(passes->batch_bytes / sizeof(Line) + 1);
                     const uint left = treat(
                         *passes, indices,
                         [&](const uint* part, uint size) {
-                            return passes->over_constraints(lanes_state, pass, 3, part, size);
+                            passes->take_constraints(lanes_state, part, size, batch.data());
+                            return passes->over_constraints(lanes_state, pass, 3, batch.data());
                         },
                         [&](uint i) { pass_over_constraint(lanes_state, pass, 3, i); });
                     expect_same(one, lanes);

@@ -33,11 +33,25 @@ const LanePasses& lane_passes() {
     return lane_passes_base;
 }
 
-void pass_over_colour(CpuState& state, ContactPass pass, uint substep, const uint* indices, uint count) {
-    treat(
-        indices, count,
-        [&](const uint* part, uint size) { return lane_passes().over_constraints(state, pass, substep, part, size); },
-        [&](uint index) { pass_over_constraint(state, pass, substep, index); });
+void ConstraintBatches::assign(std::vector<uint> indices) {
+    indices_ = std::move(indices);
+    const std::size_t wanted = count() * lines_a_batch();
+    if (wanted <= line_count_) return;
+    lines_ = std::make_unique_for_overwrite<Line[]>(wanted);
+    line_count_ = wanted;
+}
+
+void ConstraintBatches::take(const CpuState& state, uint batch) {
+    const uint lanes = lane_passes().lanes, first = batch * lanes;
+    const uint size = std::min(lanes, static_cast<uint>(indices_.size()) - first);
+    lane_passes().take_constraints(state, &indices_[first], size, &lines_[batch * lines_a_batch()]);
+}
+
+void ConstraintBatches::pass_over(CpuState& state, ContactPass pass, uint substep, uint batch) const {
+    uint left_alone = lane_passes().over_constraints(state, pass, substep, &lines_[batch * lines_a_batch()]);
+    for (; left_alone != 0; left_alone &= left_alone - 1)
+        pass_over_constraint(state, pass, substep,
+                             indices_[batch * lane_passes().lanes + static_cast<uint>(findLSB(left_alone))]);
 }
 
 void pass_over_bodies(CpuState& state, uint substep, const uint* indices, uint count) {

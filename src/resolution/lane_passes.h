@@ -3,18 +3,25 @@
 // registers. With the same bits as body_passes.h and contact_passes.h, which go through them one by one.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <vector>
+
 #include "resolution/contact_passes.h"
 
 namespace talus::engine {
 
 inline constexpr uint k_most_lanes = 8;
 
-/// Both functions treat the items `indices`, at most `lanes` of them, and have a bit set in their result for each that
-/// they have left alone: what is rare, as hits, is for the functions that treat one item.
+/// The functions treat the items `indices`, at most `lanes` of them. The passes have a bit set in their result for each
+/// that they have left alone: what is rare, as hits, is for the functions that treat one item.
 struct LanePasses {
-    uint lanes; ///< items side by side
-    /// See pass_over_constraint. No two constraints may share a body that can be pushed, but a hub.
-    uint (*over_constraints)(const CpuState&, ContactPass, uint substep, const uint* indices, uint count);
+    uint lanes;              ///< items side by side
+    std::size_t batch_bytes; ///< of what is kept of as many constraints from pass to pass
+    /// Makes that of constraints that are prepared. No two may share a body that can be pushed, but a hub.
+    void (*take_constraints)(const CpuState&, const uint* indices, uint count, void* batch);
+    /// See pass_over_constraint.
+    uint (*over_constraints)(const CpuState&, ContactPass, uint substep, const void* batch);
     /// See integrate_body.
     uint (*over_bodies)(const CpuState&, uint substep, const uint* indices, uint count);
 };
@@ -22,8 +29,28 @@ struct LanePasses {
 /// For the widest registers that this machine has.
 const LanePasses& lane_passes();
 
-/// A pass over the constraints `indices`, all of one colour.
-void pass_over_colour(CpuState&, ContactPass, uint substep, const uint* indices, uint count);
+/// Constraints of one colour in batches, as many in each as there are lanes. What their passes need of them, but for
+/// what they change, stays in the form of lanes from the first pass of a step to the last.
+class ConstraintBatches {
+public:
+    /// For the constraints `indices`, each batch of which is to be taken before it is passed over.
+    void assign(std::vector<uint> indices);
+    uint count() const { return static_cast<uint>(indices_.size() + lane_passes().lanes - 1) / lane_passes().lanes; }
+    void take(const CpuState&, uint batch);
+    std::size_t memory_bytes() const { return line_count_ * sizeof(Line) + indices_.capacity() * sizeof(uint); }
+    void pass_over(CpuState&, ContactPass, uint substep, uint batch) const;
+
+private:
+    struct alignas(64) Line {
+        std::byte bytes[64];
+    };
+    static std::size_t lines_a_batch() { return (lane_passes().batch_bytes + sizeof(Line) - 1) / sizeof(Line); }
+
+    std::vector<uint> indices_;
+    std::unique_ptr<Line[]> lines_;
+    std::size_t line_count_ = 0;
+};
+
 void pass_over_bodies(CpuState&, uint substep, const uint* indices, uint count);
 
 /// Calls part(indices, size) on all threads for parts of `first` to `first` + `count` - 1, as many items as there are

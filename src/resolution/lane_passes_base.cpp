@@ -7,6 +7,7 @@
 namespace talus::engine {
 
 extern const LanePasses lane_passes_base;
-const LanePasses lane_passes_base{TALUS_LANES, lanes_base::pass_over_constraints, lanes_base::integrate_bodies};
+const LanePasses lane_passes_base{TALUS_LANES, sizeof(lanes_base::ConstraintBatch), lanes_base::take_constraints,
+                                  lanes_base::pass_over_batch, lanes_base::integrate_bodies};
 
 } // namespace talus::engine

@@ -7,25 +7,6 @@
 
 namespace talus::engine::TALUS_LANES_NAME {
 
-/// As target_of_pass in contact_passes.h.
-TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ContactConstraint& c, const ManifoldRows& rows,
-                                     const ManifoldImpulses& impulses, const BodyDelta& delta_a,
-                                     const BodyDelta& delta_b, const Parameters& p) {
-    const bool relax = pass == ContactPass::Relax;
-    const Mask against_static = is_against_static(c.traits);
-    const Substep substep = make_substep(c.substeps, against_static, c.load_speed, p);
-    PassTarget target;
-    target.friction = make_friction_target(rows, impulses.normal);
-    target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
-    target.moved_since = relax;
-    target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
-    target.half_h = choose(against_static && !Mask(relax), 0.5f * substep_length(c.substeps, p), 0.0f);
-    target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
-                                       impulses.normal, !relax, substep, p);
-    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
-    return target;
-}
-
 // ---- records of lanes, cell by cell as records.shared.glsl has them ----
 
 TALUS_LANE BodyVelocity velocities_at(const CpuState& state, const std::uint32_t* bodies) {
@@ -121,21 +102,60 @@ TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::ui
 static_assert(offsetof(engine::ContactConstraint, friction_impulse) == 11 * sizeof(Cell) &&
               sizeof(engine::ContactConstraint) == 16 * sizeof(Cell));
 
-TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
-                             const ManifoldImpulses& is, const ContactConstraint& was) {
-    const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
-        scatter(state.constraints.data, places, cell, lanes, {x, y, z, w});
-    };
-    put(11, is.friction.x, is.friction.y, is.friction.z, was.hub_share);
-    put(12, is.moment.x, is.moment.y, is.moment.z, was.load_speed);
-    put(13, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
-    put(14, is.total.x, is.total.y, is.total.z, is.total.w);
-}
-
 struct Places {
     std::uint32_t constraint[k_lanes], body_a[k_lanes], body_b[k_lanes];
     std::uint32_t hub_change[k_lanes]; ///< of constraints of hubs
 };
+
+/// What the passes of a step need of some constraints, one a lane, but for what they change.
+struct ConstraintBatch {
+    Places places;
+    std::uint32_t lanes; ///< a bit for each that has one
+    std::uint32_t most_substeps;
+    ULanes body_a, body_b, traits, substeps;
+    Lanes hub_share, load_speed;
+    vec3 gap;
+    vec4 base_separation;
+    ManifoldRows rows;
+};
+
+TALUS_LANE ManifoldImpulses impulses_at(const CpuState& state, const std::uint32_t* places) {
+    const auto cell = [&](std::size_t i) __attribute__((always_inline)) {
+        return gather(state.constraints.data, places, i);
+    };
+    const auto friction = cell(11), moment = cell(12), normal = cell(13), total = cell(14);
+    return {all_of(normal), all_of(total), three_of(friction), three_of(moment)};
+}
+
+TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
+                             const ManifoldImpulses& is, const ConstraintBatch& batch) {
+    const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
+        scatter(state.constraints.data, places, cell, lanes, {x, y, z, w});
+    };
+    put(11, is.friction.x, is.friction.y, is.friction.z, batch.hub_share);
+    put(12, is.moment.x, is.moment.y, is.moment.z, batch.load_speed);
+    put(13, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
+    put(14, is.total.x, is.total.y, is.total.z, is.total.w);
+}
+
+/// As target_of_pass in contact_passes.h.
+TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ConstraintBatch& c, const ManifoldRows& rows,
+                                     const ManifoldImpulses& impulses, const BodyDelta& delta_a,
+                                     const BodyDelta& delta_b, const Parameters& p) {
+    const bool relax = pass == ContactPass::Relax;
+    const Mask against_static = is_against_static(c.traits);
+    const Substep substep = make_substep(c.substeps, against_static, c.load_speed, p);
+    PassTarget target;
+    target.friction = make_friction_target(rows, impulses.normal);
+    target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
+    target.moved_since = relax;
+    target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
+    target.half_h = choose(against_static && !Mask(relax), 0.5f * substep_length(c.substeps, p), 0.0f);
+    target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
+                                       impulses.normal, !relax, substep, p);
+    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
+    return target;
+}
 
 /// As in contact_passes.h.
 TALUS_LANE void put_velocity(const CpuState& state, const Places& places, const std::uint32_t* bodies,
@@ -152,42 +172,60 @@ TALUS_LANE void put_velocity(const CpuState& state, const Places& places, const 
             {change.angular.x, change.angular.y, change.angular.z, change.reserved});
 }
 
-/// As pass_over_constraint in contact_passes.h.
-inline std::uint32_t pass_over_constraints(const CpuState& state, ContactPass pass, std::uint32_t substep,
-                                           const std::uint32_t* indices, std::uint32_t count) {
-    Places places;
-    std::uint32_t active = 0, left_alone = 0;
+/// Of constraints that are prepared; see LanePasses.
+inline void take_constraints(const CpuState& state, const std::uint32_t* indices, std::uint32_t count, void* memory) {
+    ConstraintBatch& batch = *static_cast<ConstraintBatch*>(memory);
+    Places& places = batch.places;
+    batch.lanes = (1u << count) - 1u;
+    batch.most_substeps = 0;
     for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
         const std::uint32_t index = indices[lane < count ? lane : 0];
         const engine::ContactConstraint& c = state.constraints.data[index];
         places.constraint[lane] = index;
         places.body_a[lane] = c.body_a;
         places.body_b[lane] = c.body_b;
-        if (lane < count && substep < c.substeps) active |= 1u << lane;
+        batch.most_substeps = c.substeps > batch.most_substeps ? c.substeps : batch.most_substeps;
         if ((c.traits & (k_trait_hub | k_trait_hub << engine::k_traits_of_b)) != 0)
             places.hub_change[lane] = index - state.colour_offsets[k_first_hub_colour];
     }
-    if (active == 0) return 0;
-
     const ContactConstraint c = constraints_at(state, places.constraint);
-    const ManifoldRows rows = make_rows(c, inertias_at(state, places.body_a), inertias_at(state, places.body_b));
-    const ManifoldState before{
-        {velocities_at(state, places.body_a), velocities_at(state, places.body_b)}, make_impulses(c), false};
+    batch.body_a = c.body_a;
+    batch.body_b = c.body_b;
+    batch.traits = c.traits;
+    batch.substeps = c.substeps;
+    batch.hub_share = c.hub_share;
+    batch.load_speed = c.load_speed;
+    batch.gap = c.gap;
+    batch.base_separation = c.base_separation;
+    batch.rows = make_rows(c, inertias_at(state, places.body_a), inertias_at(state, places.body_b));
+}
+
+/// As pass_over_constraint in contact_passes.h.
+inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t substep,
+                                     const void* memory) {
+    const ConstraintBatch& batch = *static_cast<const ConstraintBatch*>(memory);
+    if (substep >= batch.most_substeps) return 0;
+    const Places& places = batch.places;
+    std::uint32_t active = batch.lanes & bits_of(ULanes(substep) < batch.substeps), left_alone = 0;
+    const ManifoldRows& rows = batch.rows;
+    const ManifoldState before{{velocities_at(state, places.body_a), velocities_at(state, places.body_b)},
+                               impulses_at(state, places.constraint),
+                               false};
     ManifoldState s = before;
     if (pass == ContactPass::WarmStart) {
         s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
     } else {
-        const PassTarget target = target_of_pass(pass, c, rows, s.impulses, deltas_at(state, places.body_a),
+        const PassTarget target = target_of_pass(pass, batch, rows, s.impulses, deltas_at(state, places.body_a),
                                                  deltas_at(state, places.body_b), state.parameters);
         s = solve_manifold(s, rows, target);
         left_alone = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
         active &= ~left_alone;
-        put_impulses(state, places.constraint, active, s.impulses, c);
+        put_impulses(state, places.constraint, active, s.impulses, batch);
     }
-    const ULanes traits_of_b = c.traits >> k_traits_of_b;
-    put_velocity(state, places, places.body_a, active, c.body_a, c.traits, c.hub_share, before.velocities.a,
+    const ULanes traits_of_b = batch.traits >> k_traits_of_b;
+    put_velocity(state, places, places.body_a, active, batch.body_a, batch.traits, batch.hub_share, before.velocities.a,
                  s.velocities.a);
-    put_velocity(state, places, places.body_b, active, c.body_b, traits_of_b, c.hub_share, before.velocities.b,
+    put_velocity(state, places, places.body_b, active, batch.body_b, traits_of_b, batch.hub_share, before.velocities.b,
                  s.velocities.b);
     return left_alone;
 }

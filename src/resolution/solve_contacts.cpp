@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of solve_contacts.comp.glsl.
 #include "resolution/solve_contacts.h"
-#include "resolution/lane_passes.h"
+
+#include <numeric>
+
 #include "resolution/resolution.h"
 
 namespace talus::engine {
 
+std::size_t memory_bytes(const SolverBatches& batches) {
+    std::size_t bytes = 0;
+    for (const ConstraintBatches& each : batches.of_colours)
+        bytes += each.memory_bytes();
+    return bytes;
+}
+
 void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
+    if (state.solver_batches == nullptr) state.solver_batches = std::make_shared<SolverBatches>();
     const uint colour = launch.args[0], substep = launch.args[2];
     const auto pass = static_cast<ContactPass>(launch.args[1]);
     const uint first = state.colour_offsets[colour];
@@ -16,8 +26,17 @@ void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
             pass_over_constraint(state, pass, substep, first + i);
         return;
     }
-    for_each_part(state, first, count,
-                  [&](const uint* indices, uint size) { pass_over_colour(state, pass, substep, indices, size); });
+    const uint grain = k_parallel_grain / 4 / lane_passes().lanes;
+    ConstraintBatches& batches = state.solver_batches->of_colours[colour];
+    if (pass == ContactPass::WarmStart) { // the first of a step
+        std::vector<uint> indices(count);
+        std::iota(indices.begin(), indices.end(), first);
+        batches.assign(std::move(indices));
+        state.parallel(
+            batches.count(), [&](uint batch) { batches.take(state, batch); }, grain);
+    }
+    state.parallel(
+        batches.count(), [&](uint batch) { batches.pass_over(state, pass, substep, batch); }, grain);
 }
 
 const Kernel solve_contacts{"resolution/solve_contacts", solve_contacts_on_cpu};

@@ -43,11 +43,16 @@ void IslandWork::add_constraint(const CpuState& state, uint constraint) {
 
 void solve_together(CpuState& state, const IslandWork& islands) {
     const Parameters& p = state.parameters;
+    std::array<ConstraintBatches, k_overflow_colour> colours;
+    for (uint colour = 0; colour < k_overflow_colour; ++colour) {
+        colours[colour].assign(islands.colours[colour]);
+        for (uint batch = 0; batch < colours[colour].count(); ++batch)
+            colours[colour].take(state, batch);
+    }
     const auto over_contacts = [&](ContactPass pass, uint substep) {
-        for (uint colour = 0; colour < k_overflow_colour; ++colour) {
-            const std::vector<uint>& indices = islands.colours[colour];
-            pass_over_colour(state, pass, substep, indices.data(), static_cast<uint>(indices.size()));
-        }
+        for (const ConstraintBatches& colour : colours)
+            for (uint batch = 0; batch < colour.count(); ++batch)
+                colour.pass_over(state, pass, substep, batch);
         for (const uint index : islands.colours[k_overflow_colour])
             pass_over_constraint(state, pass, substep, index);
     };

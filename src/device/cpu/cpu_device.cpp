@@ -9,6 +9,7 @@
 
 #include "device/cpu/cpu_state.h"
 #include "device/cpu/flush_denormals.h"
+#include "resolution/solve_contacts.h"
 
 namespace talus::engine {
 namespace {
@@ -92,6 +93,7 @@ public:
         std::uint64_t sum = 0;
         for (const Storage& storage : storages)
             sum += storage.size();
+        if (state.solver_batches != nullptr) sum += engine::memory_bytes(*state.solver_batches);
         return sum;
     }
 

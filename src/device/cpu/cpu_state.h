@@ -2,6 +2,8 @@
 // The state as the CPU twins see it: one typed array a buffer, the step's constants, and the threads to run loops on.
 #pragma once
 
+#include <memory>
+
 #include "device/cpu/cpu_threads.h"
 #include "device/device.h"
 
@@ -38,6 +40,7 @@ struct CpuState {
     }
 
     const CpuThreads* threads = nullptr;
+    std::shared_ptr<struct SolverBatches> solver_batches; ///< what solve_contacts keeps from launch to launch
 };
 
 } // namespace talus::engine
