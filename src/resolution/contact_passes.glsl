@@ -104,6 +104,8 @@ void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
     groupMemoryBarrier(); // the body's own invocation reads it
 }
 
+vec4 load_hits(uint index) { return uintBitsToFloat(cell_in_block(constraints, index, 15u)); }
+
 // Instead of the pass that has found the hit, whose result was not put back.
 ManifoldState pass_over_hit(uint index, float old_share)
 {
@@ -118,8 +120,7 @@ ManifoldState pass_over_hit(uint index, float old_share)
     if (!is_finite_pair(hit.velocities)) return before;
     put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
-    vec4 hits = uintBitsToFloat(cell_in_block(constraints, index, 15u));
-    cell_in_block(constraints, index, 15u) = floatBitsToUint(hits + hit.impulse);
+    cell_in_block(constraints, index, 15u) = floatBitsToUint(load_hits(index) + hit.impulse);
     return end_hit(before, hit, old_share);
 }
 
@@ -148,7 +149,7 @@ void pass_over_constraint(uint pass, uint index, PassTarget target)
         solved.velocities = warm_start_manifold(before.velocities, rows, impulses);
     } else {
         solved = solve_manifold(before, rows, target);
-        if (k_bounces && solved.is_hit) {
+        if (k_bounces && solved.is_hit && !has_been_hit(load_hits(index))) {
             if (pass == k_relax) return; // the next step's
             solved = pass_over_hit(index, target.old_share);
         }

@@ -21,6 +21,11 @@ inline ManifoldRows shift_rows(ManifoldRows rows, Slip slip)
     return couple_rows(rows, r);
 }
 
+// A contact is hit once in a step. A light body that a heavy one presses against another is thrown to and fro within a step by
+// what its contacts change: each throw would be a hit, none of which changes the load, and that drove the heavy one on.
+// `hits`: the constraint's.
+inline bool has_been_hit(vec4 hits) { return sum4(hits) > 0.0f; }
+
 struct Hit {
     VelocityPair velocities; // after it
     vec4 impulse;            // N s, along the normal
