@@ -338,12 +338,16 @@ void Simulation::prepare_kernels(const Population& population) {
     // What a large world may need at any time: a driver compiles such a kernel for a second or two.
     first.singles = first.has_groups();
     KernelList list(*gpu);
-    for (std::size_t i = 0; i < k_stage_count; ++i) {
-        const Stage stage{static_cast<int>(i)};
+    const auto note = [&](Stage stage) {
         if (&placement.of(stage) == gpu.get()) run_stage(list, stage, first);
-    }
+    };
+    // The longest kernels first: a driver that compiles side by side is done when the last one is.
+    note(Stage::Solve);
+    note(Stage::NarrowPhase);
+    for (std::size_t i = 0; i < k_stage_count; ++i)
+        note(Stage{static_cast<int>(i)});
     first.searches = false;
-    run_stage(list, Stage::BroadPhase, first);
+    note(Stage::BroadPhase);
     if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
     gpu->prepare(list.kernels);
     kernels_prepared = true;

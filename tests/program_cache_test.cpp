@@ -189,6 +189,19 @@ TEST_P(ProgramsOnDisk, do_without_a_folder_that_can_be_written) {
     EXPECT_TRUE(files().empty());
 }
 
+TEST_P(ProgramsOnDisk, are_also_of_kernels_that_were_prepared_and_never_ran) {
+    std::size_t ran = 0;
+    {
+        World world({}, options_on(DeviceKind::Gpu));
+        world.add(bodies_of("pool:boxes=5"));
+        world.step(1);
+        world.wait();
+        ran = files().size();
+    }
+    EXPECT_GT(ran, 0u);
+    EXPECT_GT(files().size(), ran);
+}
+
 TEST_P(ProgramsOnDisk, give_worlds_the_same_bits_and_leave_no_parts) {
     std::vector<std::uint64_t> hashes;
     for (const bool wanted : {false, true, true}) {

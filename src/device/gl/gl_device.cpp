@@ -88,6 +88,7 @@ GlDevice::~GlDevice() {
     try {
         context_->make_current();
         leave();
+        keep_programs();
         objects_.reset();
     } catch (const Error&) {
         // The caller's context is gone or elsewhere: freeing names now could hit another context's objects, and its own
@@ -296,6 +297,16 @@ void GlDevice::make_current() {
 
 GlBuffer& GlDevice::buffer(BufferId id) const {
     return objects_->buffers[static_cast<std::size_t>(id)];
+}
+
+void GlDevice::keep_programs() {
+    if (!objects_->cache.keeps()) return;
+    for (auto& [path, program] : objects_->programs) {
+        try {
+            program.finish(objects_->cache);
+        } catch (const Error&) { // nobody has needed it
+        }
+    }
 }
 
 GlProgram& GlDevice::begun_program(const Kernel& kernel) {

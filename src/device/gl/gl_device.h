@@ -65,6 +65,8 @@ private:
     /// The kernel's program, perhaps unfinished.
     GlProgram& begun_program(const Kernel&);
     GlProgram& program(const Kernel&);
+    /// Those too that have never run: the next start begins with them again. Waits for the compiler.
+    void keep_programs();
     void run_kernel(const Launch&);
     void check_range(BufferId, std::size_t end, const char* what) const;
     /// Lets copies see what kernels wrote.

@@ -88,18 +88,19 @@ struct Assembly {
     }
 };
 
-/// record_cells() of the records' text, which is the same for all kernels: it is only made again where another folder
-/// of kernels has brought another text.
-std::string shared_record_cells() {
+/// cells_for() the kernel. Those of all records are only made again where another folder of kernels has brought another
+/// text.
+std::string cells_of_records(std::string_view kernel) {
     static std::mutex mutex;
-    static std::string records, cells;
+    static std::string records;
+    static std::vector<RecordCells> cells;
     std::string text = shader_text("state/records.shared.glsl", "every kernel");
     const std::lock_guard lock(mutex);
     if (text != records) {
         cells = record_cells(text);
         records = std::move(text);
     }
-    return cells;
+    return cells_for(kernel, cells);
 }
 
 } // namespace
@@ -128,11 +129,13 @@ void check_kernel_folder() {
 
 KernelSource kernel_source(std::string_view path) {
     const std::string file = std::string(path) + std::string(k_kernel_ending);
+    Assembly alone;
+    alone.add_file(file, "the step");
     Assembly assembly;
     assembly.add_text("head of every kernel", "#version 450 core\n");
     for (const char* shared : {"device/gl/dialect.glsl", "state/constants.shared.glsl", "state/records.shared.glsl"})
         assembly.add_file(shared, "every kernel");
-    assembly.add_text("cells of the records", shared_record_cells());
+    assembly.add_text("cells of the records", cells_of_records(alone.source.text));
     assembly.add_text("parameters of every kernel",
                       "layout(std140) uniform ParametersBlock { Parameters parameters; };\n");
     assembly.add_file(file, "the step");

@@ -20,6 +20,8 @@ public:
     /// TALUS_PROGRAM_CACHE is 0, where there is no cache folder, or where the driver does not give programs away.
     explicit ProgramCache(bool wanted);
 
+    bool keeps() const noexcept { return !folder_.empty(); }
+
     /// A linked program with this source, in its initial state; 0 where there is none.
     GLuint load(const std::string& kernel, std::string_view source) const;
     void store(const std::string& kernel, std::string_view source, GLuint linked_program) const;

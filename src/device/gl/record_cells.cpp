@@ -3,7 +3,6 @@
 #include "device/gl/record_cells.h"
 
 #include <regex>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -57,7 +56,7 @@ void add_block(std::string& glsl, const std::string& name, std::size_t cells) {
                         name, cells, loads, stores);
 }
 
-void add_record(std::string& glsl, const std::string& name, const std::vector<Member>& members) {
+std::string cells_of(const std::string& name, const std::vector<Member>& members) {
     const std::size_t cells = members.back().place / k_cell_words;
     std::string declared, read;
     std::vector<std::string> written(cells);
@@ -69,24 +68,33 @@ void add_record(std::string& glsl, const std::string& name, const std::vector<Me
         std::string& cell = written[member.place / k_cell_words];
         cell += (cell.empty() ? "uvec4(" : ", ") + packed(member);
     }
-    glsl += fmt::format("struct {0}Cells {{{1} }};\n"
-                        "{0} unpack({0}Cells c) {{ return {0}({2}); }}\n"
-                        "{0}Cells pack({0} r) {{ return {0}Cells({3})); }}\n",
-                        name, declared, read, fmt::join(written, "), "));
+    std::string glsl = fmt::format("struct {0}Cells {{{1} }};\n"
+                                   "{0} unpack({0}Cells c) {{ return {0}({2}); }}\n"
+                                   "{0}Cells pack({0} r) {{ return {0}Cells({3})); }}\n",
+                                   name, declared, read, fmt::join(written, "), "));
     add_block(glsl, name, cells);
+    return glsl;
 }
 
 } // namespace
 
-std::string record_cells(std::string_view records) {
+std::vector<RecordCells> record_cells(std::string_view records) {
     static const std::regex record(R"(struct (\w+) \{([^}]*)\};)");
     const std::string text(records);
+    std::vector<RecordCells> all;
+    for (std::sregex_iterator at(text.begin(), text.end(), record), end; at != end; ++at) {
+        const std::vector<Member> members = members_of((*at)[2]);
+        if (members.back().place % k_cell_words == 0) all.push_back({(*at)[1], cells_of((*at)[1], members)});
+    }
+    return all;
+}
+
+std::string cells_for(std::string_view kernel, const std::vector<RecordCells>& all) {
     std::string glsl =
         "#define cell_in_block(blocks, index, cell) "
         "blocks[(index) / k_block_records].cells[(cell) * k_block_records + (index) % k_block_records]\n";
-    for (std::sregex_iterator at(text.begin(), text.end(), record), end; at != end; ++at) {
-        const std::vector<Member> members = members_of((*at)[2]);
-        if (members.back().place % k_cell_words == 0) add_record(glsl, (*at)[1], members);
+    for (const RecordCells& each : all) { // a kernel that has them declares a block of RCells, or of RCellBlock
+        if (kernel.find(each.record + "Cell") != std::string_view::npos) glsl += each.glsl;
     }
     return glsl;
 }
