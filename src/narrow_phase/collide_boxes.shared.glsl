@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Box against box: separating axis test, clipping, reduction (thesis, section 3.3).
-//
-// A separating axis is named by a number: 0-2 a face of A with that axis as its normal, 3-5 a face of B, 6 + 3 i + j
-// the cross product of A's edge i and B's edge j. The thesis queries vertices (algorithms 5 and 6); a box's support
-// point along an axis is known from its half extents, so the distances below are the same in closed form.
-// Needs narrow_phase/contact_geometry.shared.glsl, and narrow_phase/polygon.glsl or polygon.h.
+// Needs narrow_phase/box_axes.shared.glsl, and narrow_phase/polygon.glsl or polygon.h.
 
-// An edge contact must be this much less deep than every face contact to be taken (m). A face gives up to four points
-// where an edge gives one, and in a resting stack the two tie.
-const float k_face_preference = 2.5e-3f;
-// The last step's axis is kept while it is no more than this much worse than the best (m): features must not flip.
-const float k_axis_persistence = 1.0e-3f;
-// Edges within about 2 degrees of parallel have no usable cross product; the faces cover them.
-const float k_parallel = 1.0e-3f;
 // A point that is not this much deeper than a corner of the contact's outline is not worth giving up the corner (m).
 const float k_depth_tie = 1.0e-3f;
 // A point that is this much farther above the other box than the deepest one, or than its surface, carries nothing soon
@@ -22,64 +11,6 @@ const float k_near = 2.5e-3f;
 const uint k_worth_far = 0u;
 const uint k_worth_near = 1u;
 const uint k_worth_carrying = 2u; // it carried load in the last step
-
-struct BoxPair {
-    Axes a;
-    Axes b;
-    vec3 half_a;
-    vec3 half_b;
-    vec3 offset; // from A's centre to B's, world
-};
-
-struct AxisQuery {
-    float separation; // m, largest over the axes seen: the thesis's "smallest signed distance"
-    float score;      // separation and preferences
-    uint axis;
-};
-
-inline AxisQuery better_axis(AxisQuery best, float separation, float preference, uint axis, uint old_axis)
-{
-    precise float score = separation + preference + (axis == old_axis ? k_axis_persistence : 0.0f);
-    if (score > best.score) {
-        best.separation = separation;
-        best.score = score;
-        best.axis = axis;
-    }
-    return best;
-}
-
-// Separation along a unit direction: distance of the centres less the extents of both boxes.
-inline float separation_along(BoxPair p, vec3 direction)
-{
-    precise float reach_a = abs(dot3(p.a.x, direction)) * p.half_a.x + abs(dot3(p.a.y, direction)) * p.half_a.y +
-                            abs(dot3(p.a.z, direction)) * p.half_a.z;
-    precise float reach_b = abs(dot3(p.b.x, direction)) * p.half_b.x + abs(dot3(p.b.y, direction)) * p.half_b.y +
-                            abs(dot3(p.b.z, direction)) * p.half_b.z;
-    precise float separation = abs(dot3(p.offset, direction)) - reach_a - reach_b;
-    return separation;
-}
-
-// Face queries of both boxes (algorithm 5) and the edge query (algorithm 6).
-inline AxisQuery query_axes(BoxPair p, uint old_axis)
-{
-    AxisQuery best;
-    best.separation = -3.0e38f;
-    best.score = -3.0e38f;
-    best.axis = 0u;
-    for (uint i = 0u; i < 6u; i += 1u) {
-        vec3 direction = i < 3u ? axis_of(p.a, i) : axis_of(p.b, i - 3u);
-        best = better_axis(best, separation_along(p, direction), k_face_preference, i, old_axis);
-    }
-    for (uint i = 0u; i < 9u; i += 1u) {
-        vec3 across = cross3(axis_of(p.a, i / 3u), axis_of(p.b, i % 3u));
-        float square = dot3(across, across);
-        if (square > k_parallel) {
-            vec3 direction = scale3(across, inverse_sqrt(square));
-            best = better_axis(best, separation_along(p, direction), 0.0f, 6u + i, old_axis);
-        }
-    }
-    return best;
-}
 
 // ---- face contact ----
 
@@ -363,9 +294,11 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
     return g;
 }
 
-inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, float max_separation)
+// `known`: of these boxes, or no_query().
+inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, AxisQuery known, float max_separation)
 {
-    AxisQuery query = query_axes(p, carriers.axis);
+    AxisQuery query = known;
+    if (known.axis == k_axis_none) query = query_axes(p, carriers.axis);
     if (query.separation > max_separation) return no_contact();
     ContactGeometry g;
     if (query.axis >= 6u) {

@@ -15,6 +15,7 @@
 #include "resolution/contact_frame.shared.glsl"
 #include "narrow_phase/contact_geometry.shared.glsl"
 #include "narrow_phase/polygon.glsl"
+#include "narrow_phase/box_axes.shared.glsl"
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
@@ -129,7 +130,7 @@ void main()
         (unpack(velocities[pair.body_b]).linear - unpack(velocities[pair.body_a]).linear) * parameters.dt;
     precise float max_separation = parameters.speculative_distance + length3(motion);
     ContactGeometry g =
-        collide_moving_shapes(pose_a, shape_a, pose_b, shape_b, motion, carriers, max_separation);
+        collide_moving_shapes(pose_a, shape_a, pose_b, shape_b, motion, carriers, no_query(), max_separation);
     bool sensed = is_sensed(shape_a, shape_b);
     if (sensed && !can_meet(shape_a, shape_b)) g.count = 0u;
 

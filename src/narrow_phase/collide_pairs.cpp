@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of collide_pairs.comp.glsl.
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <span>
 
 #include "broad_phase/box_now.h"
 #include "device/cpu/cpu_state.h"
+#include "narrow_phase/lane_queries.h"
 #include "narrow_phase/narrow_phase.h"
 #include "narrow_phase/pair_table.h"
 #include "state/formulas.h"
@@ -70,16 +73,16 @@ void compare_with_last(CpuState& state, uint pair_index, bool same_pairs) {
         std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
 }
 
-void collide_pair(CpuState& state, uint pair_index, bool same_pairs) {
-    const Pair pair = state.pairs[pair_index];
-    if (!is_near(state, pair)) {
-        state.manifolds[pair_index] = no_manifold(pair);
-        return;
-    }
-    const uint old_index = old_manifold_of(state, pair_index, same_pairs);
-    if (state.parameters.rest_steps > 0 && sleeps(state, pair)) return keep_manifold(state, pair_index, old_index);
-    const Carriers carriers = old_index != k_none ? read_carriers(state, old_index) : no_carriers();
+/// A pair that is near, and not asleep.
+struct PairInHand {
+    uint index;
+    uint old_index; ///< of its last manifold; k_none: it has none
+    Carriers carriers;
+    AxisQuery axes; ///< no_query() where one is no box
+};
 
+void collide_pair(CpuState& state, const PairInHand& in_hand) {
+    const Pair pair = state.pairs[in_hand.index];
     const BodyPose& pose_a = state.poses[pair.body_a];
     const BodyPose& pose_b = state.poses[pair.body_b];
     const vec3 offset = pose_b.position - pose_a.position;
@@ -87,15 +90,15 @@ void collide_pair(CpuState& state, uint pair_index, bool same_pairs) {
         (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
     const float max_separation = state.parameters.speculative_distance + length3(motion);
     ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b],
-                                              motion, carriers, max_separation);
+                                              motion, in_hand.carriers, in_hand.axes, max_separation);
     const bool sensed = is_sensed(state.shapes[pair.body_a], state.shapes[pair.body_b]);
     if (sensed && !can_meet(state.shapes[pair.body_a], state.shapes[pair.body_b])) g.count = 0;
 
     Manifold manifold = make_manifold(pair, g, state.properties[pair.body_a], state.properties[pair.body_b]);
     vec4 impulses(0.0f);
-    if (old_index != k_none) {
-        manifold = carry_over(manifold, state.old_manifolds[old_index], state.parameters);
-        impulses = carry_impulses(g, read_old_points(state, old_index));
+    if (in_hand.old_index != k_none) {
+        manifold = carry_over(manifold, state.old_manifolds[in_hand.old_index], state.parameters);
+        impulses = carry_impulses(g, read_old_points(state, in_hand.old_index));
     } else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b])) {
         manifold = begin_trial(manifold, state.parameters);
     }
@@ -103,20 +106,65 @@ void collide_pair(CpuState& state, uint pair_index, bool same_pairs) {
         manifold = make_sensed(manifold);
         impulses = vec4(0.0f);
     }
-    state.manifolds[pair_index] = manifold;
+    state.manifolds[in_hand.index] = manifold;
     for (uint i = 0; i < g.count; ++i)
-        state.manifold_points[std::size_t{4} * pair_index + i] =
+        state.manifold_points[std::size_t{4} * in_hand.index + i] =
             make_point(g, pose_a.position, offset, i, impulses[static_cast<int>(i)]);
 }
 
+constexpr uint k_part = 32; // pairs that a thread treats together
+
+/// The pairs of a part that have to be collided; the others' manifolds are written.
+uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::array<PairInHand, k_part>& in_hand) {
+    uint count = 0;
+    for (uint index = first; index < end; ++index) {
+        const Pair pair = state.pairs[index];
+        if (!is_near(state, pair)) {
+            state.manifolds[index] = no_manifold(pair);
+            continue;
+        }
+        const uint old_index = old_manifold_of(state, index, same_pairs);
+        if (state.parameters.rest_steps > 0 && sleeps(state, pair))
+            keep_manifold(state, index, old_index);
+        else
+            in_hand[count++] = {index, old_index, old_index != k_none ? read_carriers(state, old_index) : no_carriers(),
+                                no_query()};
+    }
+    return count;
+}
+
+/// Of the pairs of boxes, side by side.
+void query_axes_of(const CpuState& state, std::span<PairInHand> in_hand) {
+    std::array<AxisQuestion, k_part> questions{};
+    std::array<AxisQuery, k_part> answers;
+    const auto is_box = [&](uint body) { return (state.shapes[body].type & 255u) == k_shape_box; };
+    const auto is_asked = [&](const Pair& pair) { return is_box(pair.body_a) && is_box(pair.body_b); };
+    uint count = 0;
+    for (const PairInHand& each : in_hand) {
+        const Pair& pair = state.pairs[each.index];
+        if (is_asked(pair)) questions[count++] = {pair.body_a, pair.body_b, each.carriers.axis};
+    }
+    query_axes(state, questions.data(), count, answers.data());
+    count = 0;
+    for (PairInHand& each : in_hand) {
+        if (is_asked(state.pairs[each.index])) each.axes = answers[count++];
+    }
+}
+
 void collide_pairs_on_cpu(CpuState& state, const Launch& launch) {
-    state.parallel(
-        state.counters[k_counter_pair_count],
-        [&](uint pair) {
-            collide_pair(state, pair, launch.args[0] == 1);
-            compare_with_last(state, pair, launch.args[0] == 1);
-        },
-        64);
+    const uint pair_count = state.counters[k_counter_pair_count];
+    const bool same_pairs = launch.args[0] == 1;
+    const auto collide_part = [&](uint part) {
+        const uint first = part * k_part, end = std::min(first + k_part, pair_count);
+        std::array<PairInHand, k_part> memory;
+        const std::span in_hand(memory.data(), take_in_hand(state, first, end, same_pairs, memory));
+        query_axes_of(state, in_hand);
+        for (const PairInHand& each : in_hand)
+            collide_pair(state, each);
+        for (uint index = first; index < end; ++index)
+            compare_with_last(state, index, same_pairs);
+    };
+    state.parallel((pair_count + k_part - 1) / k_part, collide_part, 2);
 }
 
 } // namespace

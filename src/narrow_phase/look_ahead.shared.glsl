@@ -25,9 +25,11 @@ inline bool is_broad(ContactGeometry g)
     return g.count == 4u && dot3(u, u) > least && dot3(v, v) > least;
 }
 
-// `motion`: of B as seen from A, in this step (m). Rotation is left out of account.
+// `motion`: of B as seen from A, in this step (m). Rotation is left out of account. `known`: of two boxes where they are
+// now, or no_query().
 inline ContactGeometry collide_moving_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
-                                             vec3 motion, Carriers carriers, float max_separation)
+                                             vec3 motion, Carriers carriers, AxisQuery known,
+                                             float max_separation)
 {
     vec3 start = pose_b.position;
     ContactGeometry now = no_contact();
@@ -37,7 +39,8 @@ inline ContactGeometry collide_moving_shapes(BodyPose pose_a, BodyShape shape_a,
     for (uint i = 0u; i < 4u; i += 1u) {
         time = next;
         pose_b.position = add_scaled(start, motion, time);
-        met = collide_shapes(pose_a, shape_a, pose_b, shape_b, carriers, max_separation);
+        met = collide_shapes(pose_a, shape_a, pose_b, shape_b, carriers, known, max_separation);
+        known = no_query();
         if (i == 0u) now = met;
         if (met.separation <= 0.0f && is_broad(met)) break;
         float closing = -dot3(met.normal, motion);

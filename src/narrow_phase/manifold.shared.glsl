@@ -2,21 +2,15 @@
 // From two bodies to a manifold: the table of shape pairs, the material, and the impulses of the last step.
 // Needs resolution/contact_frame.shared.glsl and resolution/softness.shared.glsl.
 
-// One entry a pair of shapes. A new shape adds its entries here.
+// One entry a pair of shapes. A new shape adds its entries here. `known`: of two boxes, or no_query().
 inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
-                                      Carriers carriers, float max_separation)
+                                      Carriers carriers, AxisQuery known, float max_separation)
 {
     precise vec3 offset = pose_b.position - pose_a.position;
     uint type_a = shape_a.type & 255u;
     uint type_b = shape_b.type & 255u;
     if (type_a == k_shape_box && type_b == k_shape_box) {
-        BoxPair p;
-        p.a = rotation_axes(pose_a.rotation);
-        p.b = rotation_axes(pose_b.rotation);
-        p.half_a = shape_a.half_extents;
-        p.half_b = shape_b.half_extents;
-        p.offset = offset;
-        return collide_boxes(p, carriers, max_separation);
+        return collide_boxes(make_box_pair(pose_a, shape_a, pose_b, shape_b), carriers, known, max_separation);
     }
     if (type_a == k_shape_box) {
         return collide_box_sphere(rotation_axes(pose_a.rotation), shape_a.half_extents, shape_b.half_extents.x, offset,

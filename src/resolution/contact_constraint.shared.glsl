@@ -10,11 +10,10 @@ inline bool is_among(uint pair, uint first, uint count) { return pair >= first &
 // Of both bodies. In the other colours a hub is a body as others are.
 inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
 {
-    uint mask = k_trait_movable | k_trait_round;
-    if (is_hub_colour(colour)) mask |= k_trait_hub;
-    uint traits = (a.traits & mask) | ((b.traits & mask) << k_traits_of_b);
-    if (((a.traits | b.traits) & k_trait_hub) != 0u && colour < k_first_hub_colour) traits |= k_trait_whole_hub;
-    return traits;
+    uint mask = choose(is_hub_colour(colour), k_trait_hub, 0u) | k_trait_movable | k_trait_round;
+    bool is_of_hub = ((a.traits | b.traits) & k_trait_hub) != 0u;
+    uint whole_hub = choose(is_of_hub && colour < k_first_hub_colour, k_trait_whole_hub, 0u);
+    return (a.traits & mask) | ((b.traits & mask) << k_traits_of_b) | whole_hub;
 }
 
 // Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
@@ -44,7 +43,8 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.gap = none;
     c.traits = traits;
     c.friction_mass = none;
-    c.substeps = max(max(pushes_a ? inertia_a.substeps : 1u, pushes_b ? inertia_b.substeps : 1u), 1u);
+    c.substeps =
+        max(max(choose(pushes_a, inertia_a.substeps, 1u), choose(pushes_b, inertia_b.substeps, 1u)), 1u);
     c.x = no_points;
     c.y = no_points;
     c.lever = no_points;
@@ -136,11 +136,12 @@ struct LoadBelow {
 inline LoadBelow load_below(Manifold manifold, float inverse_mass_a, float inverse_mass_b, Parameters p)
 {
     bool b_below = is_b_below(manifold, p);
-    float inverse_mass_below = b_below ? inverse_mass_b : inverse_mass_a;
-    float inverse_mass_above = b_below ? inverse_mass_a : inverse_mass_b;
+    float inverse_mass_below = choose(b_below, inverse_mass_b, inverse_mass_a);
+    float inverse_mass_above = choose(b_below, inverse_mass_a, inverse_mass_b);
+    uint mass = told_mass(manifold.weights, inverse_mass_below, inverse_mass_above);
     LoadBelow load;
-    load.body = b_below ? manifold.body_b : manifold.body_a;
-    load.mass = inverse_mass_below > 0.0f ? told_mass(manifold.weights, inverse_mass_below, inverse_mass_above) : 0u;
+    load.body = choose(b_below, manifold.body_b, manifold.body_a);
+    load.mass = choose(inverse_mass_below > 0.0f, mass, 0u);
     return load;
 }
 

@@ -5,10 +5,12 @@
 // and inertia (hub_load.shared.glsl). What they do to their shares is then added up: the hub moves as their weighted mean,
 // and momentum is kept (Tonge et al., "Mass Splitting for Jitter-Free Parallel Rigid Body Simulation", 2012).
 
+inline bool is_hub_colour(uint colour) { return colour >= k_first_hub_colour && colour < k_max_colours; }
+
 inline float share_inverse_mass(float inverse_mass, float share, uint its_traits)
 {
     precise float of_share = inverse_mass * reciprocal(share);
-    return (its_traits & k_trait_hub) != 0u ? of_share : inverse_mass;
+    return choose((its_traits & k_trait_hub) != 0u, of_share, inverse_mass);
 }
 
 // What a constraint does to the hub itself, of the velocities that its share had before and has after a pass. The linear

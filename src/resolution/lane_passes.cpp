@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "device/cpu/instruction_set.h"
 #include "resolution/body_passes.h"
 
 namespace talus::engine {
@@ -27,8 +28,7 @@ extern const LanePasses lane_passes_avx2;
 
 const LanePasses& lane_passes() {
 #ifdef TALUS_HAS_AVX2
-    static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-    if (has_avx2) return lane_passes_avx2;
+    if (has_avx2()) return lane_passes_avx2;
 #endif
     return lane_passes_base;
 }

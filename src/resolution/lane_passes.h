@@ -7,18 +7,27 @@
 #include <memory>
 #include <vector>
 
+#include "device/cpu/instruction_set.h"
 #include "resolution/contact_passes.h"
 
 namespace talus::engine {
 
-inline constexpr uint k_most_lanes = 8;
+/// A manifold whose constraint is to be made.
+struct ContactToPrepare {
+    uint index; ///< the constraint's
+    uint manifold;
+    uint colour;
+    float hub_share; ///< 1 but in the colours of hubs
+};
 
 /// The functions treat the items `indices`, at most `lanes` of them. The passes have a bit set in their result for each
 /// that they have left alone: what is rare, as hits, is for the functions that treat one item.
 struct LanePasses {
     uint lanes;              ///< items side by side
     std::size_t batch_bytes; ///< of what is kept of as many constraints from pass to pass
-    /// Makes that of constraints that are prepared. No two may share a body that can be pushed, but a hub.
+    /// Writes the constraints of at most `lanes` manifolds, and tells their loads.
+    void (*prepare_contacts)(const CpuState&, const ContactToPrepare*, uint count);
+    /// Makes a batch of constraints that are prepared. No two may share a body that can be pushed, but a hub.
     void (*take_constraints)(const CpuState&, const uint* indices, uint count, void* batch);
     /// See pass_over_constraint.
     uint (*over_constraints)(const CpuState&, ContactPass, uint substep, const void* batch);
@@ -28,6 +37,9 @@ struct LanePasses {
 
 /// For the widest registers that this machine has.
 const LanePasses& lane_passes();
+
+/// See load_below.
+void tell_load(const CpuState&, const LoadBelow&, uint height);
 
 /// Constraints of one colour in batches, as many in each as there are lanes. What their passes need of them, but for
 /// what they change, stays in the form of lanes from the first pass of a step to the last.

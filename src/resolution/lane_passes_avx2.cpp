@@ -7,7 +7,11 @@
 namespace talus::engine {
 
 extern const LanePasses lane_passes_avx2;
-const LanePasses lane_passes_avx2{TALUS_LANES, sizeof(lanes_avx2::ConstraintBatch), lanes_avx2::take_constraints,
-                                  lanes_avx2::pass_over_batch, lanes_avx2::integrate_bodies};
+const LanePasses lane_passes_avx2{TALUS_LANES,
+                                  sizeof(lanes_avx2::ConstraintBatch),
+                                  lanes_avx2::prepare_contacts,
+                                  lanes_avx2::take_constraints,
+                                  lanes_avx2::pass_over_batch,
+                                  lanes_avx2::integrate_bodies};
 
 } // namespace talus::engine

@@ -7,7 +7,11 @@
 namespace talus::engine {
 
 extern const LanePasses lane_passes_base;
-const LanePasses lane_passes_base{TALUS_LANES, sizeof(lanes_base::ConstraintBatch), lanes_base::take_constraints,
-                                  lanes_base::pass_over_batch, lanes_base::integrate_bodies};
+const LanePasses lane_passes_base{TALUS_LANES,
+                                  sizeof(lanes_base::ConstraintBatch),
+                                  lanes_base::prepare_contacts,
+                                  lanes_base::take_constraints,
+                                  lanes_base::pass_over_batch,
+                                  lanes_base::integrate_bodies};
 
 } // namespace talus::engine

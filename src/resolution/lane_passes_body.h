@@ -102,6 +102,129 @@ TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::ui
 static_assert(offsetof(engine::ContactConstraint, friction_impulse) == 11 * sizeof(Cell) &&
               sizeof(engine::ContactConstraint) == 16 * sizeof(Cell));
 
+/// Writes whole records, whose words are in order.
+TALUS_LANE void put_constraints(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
+                                const ContactConstraint& c) {
+    const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
+        scatter(state.constraints.data, places, cell, lanes, {x, y, z, w});
+    };
+    const auto put_3 = [&](std::size_t cell, vec3 v, Lanes w) __attribute__((always_inline)) {
+        put(cell, v.x, v.y, v.z, w);
+    };
+    const auto put_4 = [&](std::size_t cell, vec4 v) __attribute__((always_inline)) {
+        put(cell, v.x, v.y, v.z, v.w);
+    };
+    put(0, uintBitsToFloat(c.body_a), uintBitsToFloat(c.body_b), uintBitsToFloat(c.manifold),
+        uintBitsToFloat(c.point_count));
+    put_3(1, c.normal, c.friction);
+    put_3(2, c.centre_a, c.restitution);
+    put_3(3, c.centre_b, c.inverse_masses);
+    put_3(4, c.gap, uintBitsToFloat(c.traits));
+    put_3(5, c.friction_mass, uintBitsToFloat(c.substeps));
+    put_4(6, c.x);
+    put_4(7, c.y);
+    put_4(8, c.lever);
+    put_4(9, c.base_separation);
+    put_4(10, c.normal_mass);
+    put_3(11, c.friction_impulse, c.hub_share);
+    put_3(12, c.moment, c.load_speed);
+    put_4(13, c.normal_impulse);
+    put_4(14, c.total_impulse);
+    put_4(15, c.hit_impulse);
+}
+
+TALUS_LANE Manifold manifolds_at(const CpuState& state, const std::uint32_t* places) {
+    const auto cell = [&](std::size_t i) __attribute__((always_inline)) {
+        return gather(state.manifolds.data, places, i);
+    };
+    const auto head = cell(0), normal = cell(1), friction = cell(2), rest = cell(3);
+    return {floatBitsToUint(head.x),
+            floatBitsToUint(head.y),
+            floatBitsToUint(head.z),
+            floatBitsToUint(head.w),
+            three_of(normal),
+            floatBitsToUint(normal.w),
+            friction.x,
+            friction.y,
+            friction.z,
+            friction.w,
+            rest.x,
+            rest.y,
+            floatBitsToUint(rest.z),
+            floatBitsToUint(rest.w)};
+}
+
+TALUS_LANE ManifoldPoint points_at(const CpuState& state, const std::uint32_t* places) {
+    const auto a = gather(state.manifold_points.data, places, 0), b = gather(state.manifold_points.data, places, 1),
+               c = gather(state.manifold_points.data, places, 2);
+    return {three_of(a), a.w, three_of(b), floatBitsToUint(b.w), three_of(c), c.w};
+}
+
+// ---- before the passes ----
+
+/// What the points of a manifold change.
+TALUS_LANE ContactConstraint choose(Mask m, const ContactConstraint& yes, const ContactConstraint& no) {
+    ContactConstraint c = no;
+    c.centre_a = choose(m, yes.centre_a, no.centre_a);
+    c.centre_b = choose(m, yes.centre_b, no.centre_b);
+    c.x = choose(m, yes.x, no.x);
+    c.y = choose(m, yes.y, no.y);
+    c.lever = choose(m, yes.lever, no.lever);
+    c.base_separation = choose(m, yes.base_separation, no.base_separation);
+    c.normal_mass = choose(m, yes.normal_mass, no.normal_mass);
+    c.normal_impulse = choose(m, yes.normal_impulse, no.normal_impulse);
+    c.load_speed = choose(m, yes.load_speed, no.load_speed);
+    return c;
+}
+
+/// As prepare_contacts.comp.glsl.
+inline void prepare_contacts(const CpuState& state, const ContactToPrepare* contacts, std::uint32_t count) {
+    std::uint32_t places[k_lanes], manifolds[k_lanes], body_a[k_lanes], body_b[k_lanes], points[4][k_lanes];
+    FloatVector hub_shares{};
+    UintVector colours{}, manifold_indices{};
+    for (int lane = 0; lane < k_lanes; ++lane) {
+        const ContactToPrepare& contact = contacts[static_cast<std::uint32_t>(lane) < count ? lane : 0];
+        const engine::Manifold& manifold = state.manifolds.data[contact.manifold];
+        places[lane] = contact.index;
+        manifolds[lane] = manifold_indices[lane] = contact.manifold;
+        body_a[lane] = manifold.body_a;
+        body_b[lane] = manifold.body_b;
+        hub_shares[lane] = contact.hub_share;
+        colours[lane] = contact.colour;
+        for (std::uint32_t i = 0; i < 4; ++i)
+            points[i][lane] = 4 * contact.manifold + i;
+    }
+    const std::uint32_t lanes = (1u << count) - 1u;
+    const Manifold manifold = manifolds_at(state, manifolds);
+    const BodyInertia inertia_a = inertias_at(state, body_a), inertia_b = inertias_at(state, body_b);
+    const Lanes inverse_mass_a = gather(state.velocities.data, body_a, 0).w;
+    const Lanes inverse_mass_b = gather(state.velocities.data, body_b, 0).w;
+
+    const LoadBelow load = load_below(manifold, inverse_mass_a, inverse_mass_b, state.parameters);
+    const ULanes height = height_of(manifold.history);
+    for (std::uint32_t tells = lanes & bits_of(load.mass != 0u); tells != 0; tells &= tells - 1) {
+        const int lane = __builtin_ctz(tells);
+        tell_load(state, {load.body.v[lane], load.mass.v[lane]}, height.v[lane]);
+    }
+
+    ContactConstraint c = begin_constraint(manifold, ULanes(manifold_indices), ULanes(colours), Lanes(hub_shares),
+                                           inverse_mass_a, inverse_mass_b, inertia_a, inertia_b);
+    const auto has_point = [&](std::uint32_t i) __attribute__((always_inline)) {
+        return ULanes(i) < c.point_count;
+    };
+    for (std::uint32_t i = 0; i < 4; ++i)
+        c = choose(has_point(i), add_to_centre(c, points_at(state, points[i])), c);
+    c = end_centre(c, three_of(gather(state.poses.data, body_a, 0)), three_of(gather(state.poses.data, body_b, 0)));
+    const Meeting meeting = make_meeting(c, inertia_a, inertia_b);
+    c.friction_mass = friction_masses(meeting);
+    const NormalResponse response = respond_to_normals(meeting);
+    for (std::uint32_t i = 0; i < 4; ++i)
+        c = choose(has_point(i), add_point(c, static_cast<int>(i), points_at(state, points[i]), meeting, response), c);
+    put_constraints(state, places, lanes, c);
+}
+
+// ---- the passes ----
+
 struct Places {
     std::uint32_t constraint[k_lanes], body_a[k_lanes], body_b[k_lanes];
     std::uint32_t hub_change[k_lanes]; ///< of constraints of hubs

@@ -11,6 +11,7 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
+#include "resolution/hub.shared.glsl"
 
 layout(local_size_x = 1024) in;
 

@@ -49,7 +49,6 @@ const uint k_combine_multiply = 3u;
 // pairs that do not touch.
 const uint k_max_colours = 64u;
 const uint k_first_hub_colour = 62u;
-inline bool is_hub_colour(uint colour) { return colour >= k_first_hub_colour && colour < k_max_colours; }
 const uint k_overflow_colour = 64u;
 const uint k_inactive_colour = 127u;
 const uint k_colour_bits = 7u; // of a manifold's key: the colour in the low bits, the island above

@@ -30,6 +30,7 @@ namespace talus::engine {
 
 #include "narrow_phase/contact_geometry.shared.glsl"
 
+#include "narrow_phase/box_axes.shared.glsl"
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"

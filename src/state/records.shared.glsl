@@ -108,7 +108,7 @@ struct Manifold {
     uint point_count; // 0 to 4
     uint colour;      // batch of the constraint graph, k_no_colour before it has one; see k_whole_hub
     vec3 normal;      // unit, world, from A to B
-    uint axis;        // the separating axis it stands on, see narrow_phase/collide_boxes.shared.glsl
+    uint axis;        // the separating axis it stands on, see narrow_phase/box_axes.shared.glsl
     float friction;
     float restitution;
     float tangent_impulse_1; // N s, over the step; friction of all points together

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The shared formulas of the solver's passes, on several items at once: the same files, with lanes for numbers. What a
-// formula decides item by item it has to say by choose(), all_lanes() and any_lane(); one that does not can be
-// compiled, but not be linked.
+// Shared formulas of the narrow phase and of the solver, on several items at once: the same files, with lanes for
+// numbers. What a formula decides item by item it has to say by choose(), all_lanes() and any_lane(); one that does not
+// can be compiled, but not be linked.
 #pragma once
 
 #include "device/cpu/lanes.h"
@@ -11,7 +11,7 @@ namespace talus::engine::TALUS_LANES_NAME {
 
 /// A vector of the step's constants.
 TALUS_LANE vec3 operator*(glm::vec3 a, Lanes b) {
-    return {a.x * b, a.y * b, a.z * b};
+    return vec3(a) * b;
 }
 
 #pragma GCC diagnostic push
@@ -38,12 +38,22 @@ using engine::Parameters; // the same for all lanes
 #include "resolution/hub.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 
+struct AxisQuery;
+inline AxisQuery choose(bool, const AxisQuery&, const AxisQuery&);
+#include "narrow_phase/box_axes.shared.glsl"
+inline AxisQuery choose(bool m, const AxisQuery& yes, const AxisQuery& no) {
+    return {choose(m, yes.separation, no.separation), choose(m, yes.score, no.score), choose(m, yes.axis, no.axis)};
+}
+
 struct NormalSweep;
 inline NormalSweep choose(bool, const NormalSweep&, const NormalSweep&);
 #include "resolution/contact.shared.glsl"
 inline NormalSweep choose(bool m, const NormalSweep& yes, const NormalSweep& no) {
     return {choose(m, yes.velocity, no.velocity), choose(m, yes.impulse, no.impulse)};
 }
+#include "resolution/island.shared.glsl"
+
+#include "resolution/contact_constraint.shared.glsl"
 
 #undef choose_active
 #undef float

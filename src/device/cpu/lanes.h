@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <glm/vec3.hpp>
+
 namespace talus::engine::TALUS_LANES_NAME {
 
 #define TALUS_LANE [[gnu::always_inline]] inline
@@ -51,6 +53,7 @@ struct ULanes {
         v &= b.v;
         return *this;
     }
+    TALUS_LANE ULanes operator~() const { return ULanes(UintVector(~v)); }
 };
 
 struct Lanes {
@@ -154,6 +157,9 @@ TALUS_LANE Lanes choose(Mask m, float yes, float no) {
 TALUS_LANE ULanes choose(Mask m, ULanes yes, std::uint32_t no) {
     return choose(m, yes, ULanes(no));
 }
+TALUS_LANE ULanes choose(Mask m, std::uint32_t yes, std::uint32_t no) {
+    return choose(m, ULanes(yes), ULanes(no));
+}
 
 TALUS_LANE ULanes floatBitsToUint(Lanes x) {
     return ULanes(UintVector(x.v));
@@ -190,6 +196,7 @@ struct vec3 {
     vec3() = default;
     TALUS_LANE vec3(Lanes x0, Lanes y0, Lanes z0) : x(x0), y(y0), z(z0) {}
     TALUS_LANE explicit vec3(Lanes s) : x(s), y(s), z(s) {}
+    TALUS_LANE vec3(glm::vec3 same_in_all) : x(same_in_all.x), y(same_in_all.y), z(same_in_all.z) {}
 };
 
 struct vec4 {
@@ -197,6 +204,7 @@ struct vec4 {
     vec4() = default;
     TALUS_LANE vec4(Lanes x0, Lanes y0, Lanes z0, Lanes w0) : x(x0), y(y0), z(z0), w(w0) {}
     TALUS_LANE explicit vec4(Lanes s) : x(s), y(s), z(s), w(s) {}
+    TALUS_LANE Lanes& operator[](int i) { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
 };
 
 #define TALUS_OPERATOR(op)                                                                                             \

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "narrow_phase/lane_queries.h"
+
+#include <algorithm>
+#include <array>
+
+#include "device/cpu/instruction_set.h"
+
+namespace talus::engine {
+
+// One a file, as each is compiled for its own instructions.
+extern const LaneQueries lane_queries_base;
+#ifdef TALUS_HAS_AVX2
+extern const LaneQueries lane_queries_avx2;
+#endif
+
+static const LaneQueries& lane_queries() {
+#ifdef TALUS_HAS_AVX2
+    if (has_avx2()) return lane_queries_avx2;
+#endif
+    return lane_queries_base;
+}
+
+void query_axes(const CpuState& state, const AxisQuestion* questions, uint count, AxisQuery* answers) {
+    const LaneQueries& queries = lane_queries();
+    uint done = 0;
+    for (; done + queries.lanes <= count; done += queries.lanes)
+        queries.query_axes(state, questions + done, answers + done);
+    if (done == count) return;
+    // The last ones are asked with one of them again in the lanes that are left.
+    std::array<AxisQuestion, k_most_lanes> rest;
+    std::array<AxisQuery, k_most_lanes> rest_answers;
+    rest.fill(questions[done]);
+    std::copy(questions + done, questions + count, rest.begin());
+    queries.query_axes(state, rest.data(), rest_answers.data());
+    std::copy_n(rest_answers.begin(), count - done, answers + done);
+}
+
+} // namespace talus::engine
