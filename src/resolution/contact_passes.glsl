@@ -106,6 +106,12 @@ void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
 
 vec4 load_hits(uint index) { return uintBitsToFloat(cell_in_block(constraints, index, 15u)); }
 
+bool can_be_hit(uint index, ManifoldState before)
+{
+    return !has_been_hit(load_hits(index)) ||
+           can_be_hit_again(before, load_warm_start(body_a), load_warm_start(body_b));
+}
+
 // Instead of the pass that has found the hit, whose result was not put back.
 ManifoldState pass_over_hit(uint index, float old_share)
 {
@@ -149,7 +155,7 @@ void pass_over_constraint(uint pass, uint index, PassTarget target)
         solved.velocities = warm_start_manifold(before.velocities, rows, impulses);
     } else {
         solved = solve_manifold(before, rows, target);
-        if (k_bounces && solved.is_hit && !has_been_hit(load_hits(index))) {
+        if (k_bounces && solved.is_hit && can_be_hit(index, before)) {
             if (pass == k_relax) return; // the next step's
             solved = pass_over_hit(index, target.old_share);
         }

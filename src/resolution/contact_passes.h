@@ -89,7 +89,9 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep
     } else {
         const PassTarget target = target_of_pass(state, pass, c, rows, s.impulses);
         s = solve_manifold(s, rows, target);
-        const bool is_hit = s.is_hit && !has_been_hit(c.hit_impulse);
+        const bool is_hit =
+            s.is_hit && (!has_been_hit(c.hit_impulse) ||
+                         can_be_hit_again(before, state.warm_starts[c.body_a], state.warm_starts[c.body_b]));
         if (is_hit && pass == ContactPass::Relax) return; // the next step's
         if (is_hit) s = pass_over_hit(state, before, c, rows, target);
         if (!is_finite_pair(s.velocities)) s = before; // what has gone wrong here is kept from the bodies

@@ -21,10 +21,26 @@ inline ManifoldRows shift_rows(ManifoldRows rows, Slip slip)
     return couple_rows(rows, r);
 }
 
-// A contact is hit once in a step. A light body that a heavy one presses against another is thrown to and fro within a step by
-// what its contacts change: each throw would be a hit, none of which changes the load, and that drove the heavy one on.
 // `hits`: the constraint's.
 inline bool has_been_hit(vec4 hits) { return sum4(hits) > 0.0f; }
+
+// What contacts change about a body in a sub-step, but for hits, that is more than its own weight at rest (m/s).
+const float k_loaded = 0.02f;
+
+inline bool is_loaded(BodyVelocity velocity, BodyWarmStart warm)
+{
+    return velocity.inverse_mass > 0.0f && dot3(warm.linear, warm.linear) > k_loaded * k_loaded;
+}
+
+// A contact is hit as often in a step as its bodies meet, as the edges of a box do that lands a little tilted, or a ball
+// between two walls. But not where there is a load: a light body that a heavy one presses against another is thrown to
+// and fro within a step by what its contacts change. Each throw would be a hit, none of which changes the load, and that
+// drove the heavy one on.
+inline bool can_be_hit_again(ManifoldState before, BodyWarmStart warm_a, BodyWarmStart warm_b)
+{
+    precise vec4 carried = before.impulses.normal + before.impulses.total;
+    return !(sum4(carried) > 0.0f) && !is_loaded(before.velocities.a, warm_a) && !is_loaded(before.velocities.b, warm_b);
+}
 
 struct Hit {
     VelocityPair velocities; // after it
