@@ -120,9 +120,8 @@ ManifoldState pass_over_hit(uint index, float old_share)
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
-    vec4 closing = closing_speeds(separations, substep.inv_h);
     ManifoldState before = begin_pass();
-    Hit hit = solve_hit(before.velocities, rows, slip, closing, substep.inv_h, parameters);
+    Hit hit = solve_hit(before.velocities, rows, slip, separations, substep.inv_h, parameters);
     if (!is_finite_pair(hit.velocities)) return before;
     put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);

@@ -54,8 +54,8 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
 inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before, ContactConstraint& c,
                                    const ManifoldRows& rows, const PassTarget& target) {
     const Substep substep = make_substep(c.substeps, is_against_static(c.traits), c.load_speed, state.parameters);
-    const vec4 closing = closing_speeds(current_separations(state, c, rows), substep.inv_h);
-    const Hit hit = solve_hit(before.velocities, rows, target.slip, closing, substep.inv_h, state.parameters);
+    const Hit hit = solve_hit(before.velocities, rows, target.slip, current_separations(state, c, rows), substep.inv_h,
+                              state.parameters);
     if (!is_finite_pair(hit.velocities)) return before;
     const auto take = [&](uint body, const BodyVelocity& was, const BodyVelocity& is) {
         BodyWarmStart& warm = state.warm_starts[body];

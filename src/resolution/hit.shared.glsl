@@ -55,10 +55,11 @@ inline bool bounces(float velocity, float mass, float closing, Parameters p)
     return mass > 0.0f && -velocity > max(closing, p.restitution_threshold);
 }
 
-inline float time_of_bounce(float velocity, float mass, float closing, float inv_h, Parameters p)
+inline float time_of_bounce(float velocity, float mass, float separation, float inv_h, Parameters p)
 {
-    precise float time = closing * reciprocal(-velocity * inv_h);
-    return bounces(velocity, mass, closing, p) ? time : k_never;
+    precise float gap = separation * inv_h;
+    precise float time = max(gap, velocity) * reciprocal(-velocity * inv_h);
+    return bounces(velocity, mass, max(gap, 0.0f), p) ? time : k_never;
 }
 
 // The velocity that a point is to have after the hit, at least.
@@ -69,20 +70,21 @@ inline float leaving_velocity(float velocity, float mass, float closing, float r
 }
 
 // When the first point that bounces touches; 0 if none does.
-inline float time_of_hit(vec4 velocity, vec4 mass, vec4 closing, float inv_h, Parameters p)
+inline float time_of_hit(vec4 velocity, vec4 mass, vec4 separations, float inv_h, Parameters p)
 {
-    float first = min(min(time_of_bounce(velocity.x, mass.x, closing.x, inv_h, p),
-                          time_of_bounce(velocity.y, mass.y, closing.y, inv_h, p)),
-                      min(time_of_bounce(velocity.z, mass.z, closing.z, inv_h, p),
-                          time_of_bounce(velocity.w, mass.w, closing.w, inv_h, p)));
+    float first = min(min(time_of_bounce(velocity.x, mass.x, separations.x, inv_h, p),
+                          time_of_bounce(velocity.y, mass.y, separations.y, inv_h, p)),
+                      min(time_of_bounce(velocity.z, mass.z, separations.z, inv_h, p),
+                          time_of_bounce(velocity.w, mass.w, separations.w, inv_h, p)));
     return first < k_never ? first : 0.0f;
 }
 
 // `v`: the velocities before the pass.
-inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 closing, float inv_h, Parameters p)
+inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 separations, float inv_h, Parameters p)
 {
+    vec4 closing = closing_speeds(separations, inv_h);
     vec4 approaching = normal_velocities(relative_velocity(v, rows.meeting, slip), rows);
-    float time = time_of_hit(approaching, rows.normal_mass, closing, inv_h, p);
+    float time = time_of_hit(approaching, rows.normal_mass, separations, inv_h, p);
     rows = shift_rows(rows, slip_after(slip, v, time));
     slip.apart = vec3(0.0f, 0.0f, 0.0f);
 
