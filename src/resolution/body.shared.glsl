@@ -132,6 +132,14 @@ inline BodyWarmStart take_hit(BodyWarmStart warm, BodyVelocity before, BodyVeloc
     return warm;
 }
 
+// Where the hits of the sub-step say that the body has been all along.
+inline BodyDelta shifted(BodyDelta delta, BodyWarmStart warm)
+{
+    precise vec3 position = delta.position + vec3(warm.shift_x, warm.shift_y, warm.shift_z);
+    delta.position = position;
+    return delta;
+}
+
 // The implicit 1 / (1 + h c). Without damping it is 1, not a rounding less: a body in free flight keeps its speed.
 inline float damping_factor(float damping, float h)
 {
@@ -157,7 +165,8 @@ inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm
     if (any_lane(d.x != d.y || d.y != d.z)) {
         vec3 local = rotate_back(rotation, angular);
         precise float turn = 4.0f * length3(local) * h; // in quarters of a radian
-        uint parts = choose_active(d.x != d.y || d.y != d.z, uint(min(turn, 255.0f)) + 1u, 1u);
+        float whole = min(255.0f, turn); // in this order: of what is no number it is 255
+        uint parts = choose_active(d.x != d.y || d.y != d.z, uint(whole) + 1u, 1u);
         precise float part = h * reciprocal(float(parts));
         for (uint i = 0u; any_lane(i < parts); i += 1u)
             local = choose_active(i < parts, turn_freely(local, d, part), local);
@@ -190,8 +199,7 @@ inline BodyVelocity stop(BodyVelocity velocity)
 
 inline BodyDelta integrate_position(BodyDelta delta, BodyWarmStart warm, BodyVelocity velocity, float h)
 {
-    precise vec3 shifted = delta.position + vec3(warm.shift_x, warm.shift_y, warm.shift_z);
-    delta.position = add_scaled(shifted, velocity.linear, h);
+    delta.position = add_scaled(shifted(delta, warm).position, velocity.linear, h);
     delta.rotation = integrate_rotation(delta.rotation, velocity.angular, h);
     return delta;
 }

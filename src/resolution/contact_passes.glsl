@@ -115,8 +115,8 @@ bool can_be_hit(uint index, ManifoldState before)
 // Instead of the pass that has found the hit, whose result was not put back.
 ManifoldState pass_over_hit(uint index, float old_share)
 {
-    BodyDelta delta_a = load_delta(body_a);
-    BodyDelta delta_b = load_delta(body_b);
+    BodyDelta delta_a = shifted(load_delta(body_a), load_warm_start(body_a));
+    BodyDelta delta_b = shifted(load_delta(body_b), load_warm_start(body_b));
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);

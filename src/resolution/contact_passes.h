@@ -29,10 +29,6 @@ for_each_pass(uint last, uint iterations, bool relax, const Integrate& integrate
     if (relax) over_contacts(ContactPass::Relax, 0);
 }
 
-inline vec4 current_separations(const CpuState& state, const ContactConstraint& c, const ManifoldRows& rows) {
-    return current_separations(rows, c.base_separation, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
-}
-
 inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const ContactConstraint& c,
                                  const ManifoldRows& rows, const ManifoldImpulses& impulses) {
     const Parameters& p = state.parameters;
@@ -42,10 +38,11 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
     target.moved_since = pass == ContactPass::Relax;
-    target.slip = measure_slip(rows.meeting, c.gap, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
+    const BodyDelta &delta_a = state.deltas[c.body_a], &delta_b = state.deltas[c.body_b];
+    target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
     target.half_h = moves ? 0.5f * substep_length(c.substeps, p) : 0.0f;
-    target.normal = make_normal_target(current_separations(state, c, rows), rows, impulses.normal,
-                                       pass != ContactPass::Relax, substep, p);
+    target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
+                                       impulses.normal, pass != ContactPass::Relax, substep, p);
     if (pass == ContactPass::Relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
     return target;
 }
@@ -54,7 +51,10 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
 inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before, ContactConstraint& c,
                                    const ManifoldRows& rows, const PassTarget& target) {
     const Substep substep = make_substep(c.substeps, is_against_static(c.traits), c.load_speed, state.parameters);
-    const Hit hit = solve_hit(before.velocities, rows, target.slip, current_separations(state, c, rows), substep.inv_h,
+    const BodyDelta delta_a = shifted(state.deltas[c.body_a], state.warm_starts[c.body_a]);
+    const BodyDelta delta_b = shifted(state.deltas[c.body_b], state.warm_starts[c.body_b]);
+    const Hit hit = solve_hit(before.velocities, rows, measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b),
+                              current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), substep.inv_h,
                               state.parameters);
     if (!is_finite_pair(hit.velocities)) return before;
     const auto take = [&](uint body, const BodyVelocity& was, const BodyVelocity& is) {

@@ -66,7 +66,8 @@ struct Lanes {
 };
 
 /// Of numbers below 2^31; what is none gives 0.
-TALUS_LANE ULanes::ULanes(Lanes x) : v(UintVector(__builtin_convertvector(x.v == x.v ? x.v : x.v - x.v, MaskVector))) {}
+TALUS_LANE ULanes::ULanes(Lanes x)
+    : v(UintVector(__builtin_convertvector(x.v == x.v ? x.v : FloatVector{}, MaskVector))) {}
 
 #define TALUS_OPERATOR(type, op)                                                                                       \
     TALUS_LANE type operator op(type a, type b) {                                                                      \
