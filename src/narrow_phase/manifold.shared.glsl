@@ -159,9 +159,10 @@ inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, u
     return point;
 }
 
-// For bodies that the caller has just put together: the load is not known yet.
+// For bodies that the caller has just put together: the load is not known yet. Without gravity none builds up.
 inline Manifold begin_trial(Manifold manifold, Parameters p)
 {
+    if (dot3(p.gravity, p.gravity) == 0.0f) return manifold;
     manifold.substeps = p.most_substeps;
     manifold.history = make_history(k_trial, k_unknown_height);
     return manifold;
