@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Compiled programs on disk: found again, and never trusted. A file counts as used where it stays as it is, and as
 // replaced where it does not.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -190,16 +191,16 @@ TEST_P(ProgramsOnDisk, do_without_a_folder_that_can_be_written) {
 }
 
 TEST_P(ProgramsOnDisk, are_also_of_kernels_that_were_prepared_and_never_ran) {
-    std::size_t ran = 0;
     {
         World world({}, options_on(DeviceKind::Gpu));
         world.add(bodies_of("pool:boxes=5"));
         world.step(1);
-        world.wait();
-        ran = files().size();
     }
-    EXPECT_GT(ran, 0u);
-    EXPECT_GT(files().size(), ran);
+    // The search for pairs of the first step runs anew for all bodies.
+    const auto is_of_later_steps = [](const fs::path& file) {
+        return file.filename().string().starts_with("broad_phase.find_strays");
+    };
+    EXPECT_TRUE(std::ranges::any_of(files(), is_of_later_steps));
 }
 
 TEST_P(ProgramsOnDisk, give_worlds_the_same_bits_and_leave_no_parts) {

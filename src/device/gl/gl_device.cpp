@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -316,8 +318,18 @@ GlProgram& GlDevice::begun_program(const Kernel& kernel) {
 
 GlProgram& GlDevice::program(const Kernel& kernel) {
     GlProgram& begun = begun_program(kernel);
-    if (!begun.finished()) begun.finish(objects_->cache);
+    if (begun.finished()) return begun;
+    while (!begun.is_compiled())
+        finish_another();
+    begun.finish(objects_->cache);
     return begun;
+}
+
+void GlDevice::finish_another() {
+    for (auto& [path, program] : objects_->programs) {
+        if (!program.finished() && program.is_compiled()) return program.finish(objects_->cache);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 void GlDevice::check_range(BufferId id, std::size_t end, const char* what) const {

@@ -65,6 +65,9 @@ private:
     /// The kernel's program, perhaps unfinished.
     GlProgram& begun_program(const Kernel&);
     GlProgram& program(const Kernel&);
+    /// While one is still compiled: some drivers make the machine's code only when the program is first asked for, on
+    /// this thread. Naps where none is ready.
+    void finish_another();
     /// Those too that have never run: the next start begins with them again. Waits for the compiler.
     void keep_programs();
     void run_kernel(const Launch&);

@@ -59,6 +59,11 @@ bool is_declared_readonly(std::string_view source, const std::string& block) {
 
 } // namespace
 
+bool compiles_side_by_side() {
+    return epoxy_has_gl_extension("GL_ARB_parallel_shader_compile") ||
+           epoxy_has_gl_extension("GL_KHR_parallel_shader_compile");
+}
+
 GlProgram::GlProgram(const std::string& path, const ProgramCache& cache)
     : path_(path), source_(std::make_unique<KernelSource>(kernel_source(path))),
       name_(cache.load(path, source_->text)) {
@@ -79,6 +84,13 @@ void GlProgram::begin_compiling() {
     glProgramParameteri(name_, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
     glAttachShader(name_, shader_);
     glLinkProgram(name_);
+}
+
+bool GlProgram::is_compiled() const {
+    if (shader_ == 0 || !compiles_side_by_side()) return true;
+    GLint done = GL_FALSE;
+    glGetProgramiv(name_, GL_COMPLETION_STATUS_ARB, &done);
+    return done == GL_TRUE;
 }
 
 void GlProgram::finish(const ProgramCache& cache) {

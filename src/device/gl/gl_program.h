@@ -23,6 +23,9 @@ struct StorageBlock {
     bool written = true;
 };
 
+/// Whether the driver of the current context compiles in threads of its own, and tells when it is done.
+bool compiles_side_by_side();
+
 class GlProgram {
 public:
     /// Takes the program from the cache, or gives its source to the driver's compiler without waiting for it. Throws
@@ -37,6 +40,8 @@ public:
     /// k_buffers.
     void finish(const ProgramCache&);
     bool finished() const noexcept { return !source_; }
+    /// Whether to finish it means no waiting for the compiler's threads. True where the driver does not tell.
+    bool is_compiled() const;
 
     GLuint name() const noexcept { return name_; }
     const std::vector<StorageBlock>& blocks() const noexcept { return blocks_; }
