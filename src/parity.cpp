@@ -114,6 +114,7 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     const std::unique_ptr<Device> gpu = make_gl_device(GlContext::Own, false);
     StepPlan plan = simulation.plan_step(population);
     if (!plan.small) plan.colouring_groups = std::max(gpu->resident_groups(assign_colours), 1u);
+    plan.in_groups = plan.in_groups && gpu->loops_freely();
     plan.persistent_groups = plan.may_be_persistent() ? gpu->resident_groups(solve_persistent) : 0;
     plan.colour_capacity = k_first_hub_colour;
     plan.overflow = true;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The CPU device's passes over several items side by side give the bits of the passes over one item at a time, for each
 // set of instructions that this machine has.
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -9,14 +12,18 @@
 #include <gtest/gtest.h>
 
 #include "device/cpu/flush_denormals.h"
+#include "device/cpu/instruction_set.h"
+#include "narrow_phase/lane_queries.h"
 #include "resolution/body_passes.h"
 #include "resolution/lane_passes.h"
 
 namespace talus::engine {
 
 extern const LanePasses lane_passes_base;
+extern const LaneQueries lane_queries_base;
 #ifdef TALUS_HAS_AVX2
 extern const LanePasses lane_passes_avx2;
+extern const LaneQueries lane_queries_avx2;
 #endif
 
 namespace {
@@ -24,7 +31,15 @@ namespace {
 std::vector<const LanePasses*> all_lane_passes() {
     std::vector<const LanePasses*> all{&lane_passes_base};
 #ifdef TALUS_HAS_AVX2
-    if (__builtin_cpu_supports("avx2") != 0) all.push_back(&lane_passes_avx2);
+    if (has_avx2()) all.push_back(&lane_passes_avx2);
+#endif
+    return all;
+}
+
+std::vector<const LaneQueries*> all_lane_queries() {
+    std::vector<const LaneQueries*> all{&lane_queries_base};
+#ifdef TALUS_HAS_AVX2
+    if (has_avx2()) all.push_back(&lane_queries_avx2);
 #endif
     return all;
 }
@@ -217,6 +232,9 @@ TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
             for (const uint count : {1u, 7u, 8u, Items::k_bodies}) {
                 SCOPED_TRACE(std::to_string(passes->lanes) + " lanes, sub-step " + std::to_string(substep));
                 Items one(count, 0.0f), lanes(count, 0.0f);
+                constexpr uint k_without_a_speed = 5;
+                for (Items* items : {&one, &lanes})
+                    items->velocities[k_without_a_speed].angular.x = std::numeric_limits<float>::quiet_NaN();
                 CpuState one_state = one.state(), lanes_state = lanes.state();
                 const std::vector<uint> indices = first_items(count);
                 for (const uint i : indices)
@@ -226,6 +244,96 @@ TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
                     [&](const uint* part, uint size) { return passes->over_bodies(lanes_state, substep, part, size); },
                     [&](uint i) { integrate_body(lanes_state, i, substep); });
                 expect_same(one, lanes);
+            }
+        }
+    }
+}
+
+/// What prepare_contacts.comp.glsl makes of a manifold, by the same formulas.
+ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contact) {
+    const Manifold& manifold = state.manifolds[contact.manifold];
+    const BodyInertia &inertia_a = state.inertias[manifold.body_a], &inertia_b = state.inertias[manifold.body_b];
+    ContactConstraint c = begin_constraint(manifold, contact.manifold, contact.colour, contact.hub_share,
+                                           state.velocities[manifold.body_a].inverse_mass,
+                                           state.velocities[manifold.body_b].inverse_mass, inertia_a, inertia_b);
+    const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * contact.manifold];
+    for (uint i = 0; i < manifold.point_count; ++i)
+        c = add_to_centre(c, points[i]);
+    c = end_centre(c, state.poses[manifold.body_a].position, state.poses[manifold.body_b].position);
+    const Meeting meeting = make_meeting(c, inertia_a, inertia_b);
+    c.friction_mass = friction_masses(meeting);
+    for (uint i = 0; i < manifold.point_count; ++i)
+        c = add_point(c, static_cast<int>(i), points[i], meeting, respond_to_normals(meeting));
+    return c;
+}
+
+TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
+    const FlushDenormals flush;
+    Items items(1, 0.0f);
+    items.inertias[Items::k_hub].traits |= k_trait_hub;
+    std::vector<Manifold> manifolds;
+    std::vector<ManifoldPoint> points;
+    std::vector<ContactToPrepare> contacts;
+    for (uint i = 0; i < Items::k_count; ++i) {
+        const ContactConstraint& c = items.constraints[i];
+        const vec3 friction = items.vector(0.3f);
+        manifolds.push_back({c.body_a, c.body_b, c.point_count, 0, c.normal, 0, 0.5f, 0.0f, friction.x, friction.y,
+                             friction.z, 1.0f + items.number(0.9f), 8, make_history(0, 1 + i % 5)});
+        for (uint k = 0; k < 4; ++k) // those that are not there may be anything
+            points.push_back({items.vector(0.5f), k < c.point_count ? items.number(0.02f) : NAN, items.vector(0.5f), k,
+                              items.vector(5.0f), items.number(1.0f) + 1.0f});
+        const bool of_hub = c.body_a == Items::k_hub || c.body_b == Items::k_hub;
+        contacts.push_back({i, i, of_hub && i % 2 == 0 ? k_first_hub_colour : i % 3, of_hub ? 0.125f : 1.0f});
+    }
+    std::vector<ContactConstraint> wanted;
+    std::vector<uint> wanted_loads;
+    for (const LanePasses* passes : all_lane_passes()) {
+        SCOPED_TRACE(std::to_string(passes->lanes) + " lanes");
+        std::vector<ContactConstraint> made(Items::k_count);
+        std::vector<uint> told(k_told_words * Items::k_bodies, 0);
+        CpuState state = items.state();
+        state.manifolds = {manifolds.data(), manifolds.size()};
+        state.manifold_points = {points.data(), points.size()};
+        state.constraints = {made.data(), made.size()};
+        state.told_loads = {told.data(), told.size()};
+        for (uint first = 0; first < Items::k_count;) { // parts of every size
+            const uint count = min(1 + first % passes->lanes, Items::k_count - first);
+            passes->prepare_contacts(state, &contacts[first], count);
+            first += count;
+        }
+        if (wanted.empty()) {
+            for (const ContactToPrepare& contact : contacts)
+                wanted.push_back(prepared(state, contact));
+            wanted_loads = told;
+        }
+        expect_same(wanted, made, "constraint");
+        EXPECT_EQ(told, wanted_loads);
+        EXPECT_GT(*std::ranges::max_element(told), 0u);
+    }
+}
+
+TEST(Lanes, query_axes_with_the_bits_of_one_at_a_time) {
+    const FlushDenormals flush;
+    Items items(1, 0.0f);
+    std::vector<AxisQuestion> questions;
+    for (uint a = 0; a < Items::k_bodies; ++a) {
+        items.poses[a].position = items.vector(0.6f);
+        if (a % 4 == 0) items.poses[a].rotation = vec4(0.0f, 0.0f, 0.0f, 1.0f); // their edges are parallel
+        items.shapes[a].half_extents = vec3(0.5f) + items.vector(0.3f);
+        for (uint b = 0; b < a; ++b)
+            questions.push_back({a, b, (a + b) % 3 == 0 ? k_axis_none : (a * b) % 15});
+    }
+    items.poses[7].position.y = std::numeric_limits<float>::quiet_NaN();
+    const CpuState state = items.state();
+    for (const LaneQueries* queries : all_lane_queries()) {
+        for (std::size_t first = 0; first + queries->lanes <= questions.size(); first += queries->lanes) {
+            AxisQuery answers[k_most_lanes];
+            queries->query_axes(state, &questions[first], answers);
+            for (uint lane = 0; lane < queries->lanes; ++lane) {
+                const auto [a, b, old_axis] = questions[first + lane];
+                const BoxPair pair = make_box_pair(state.poses[a], state.shapes[a], state.poses[b], state.shapes[b]);
+                const AxisQuery one = query_axes(pair, old_axis);
+                EXPECT_EQ(std::memcmp(&one, &answers[lane], sizeof one), 0) << a << " and " << b;
             }
         }
     }
