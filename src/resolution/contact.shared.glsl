@@ -176,7 +176,7 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
     target.mass = vec4(x.x, y.x, z.x, w.x);
     target.offset = vec4(x.y, y.y, z.y, w.y);
     target.lower = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    target.let_go = choose(rows.restitution > 0.0f, 0.0f, substep.let_go); // what bounces is to be thrown
+    target.let_go = substep.let_go;
     target.push_speed = substep.push_speed;
     target.hit_speed = vec4(hit_speed(separation.x, rows.normal_mass.x, rows.restitution, inv_h, p),
                             hit_speed(separation.y, rows.normal_mass.y, rows.restitution, inv_h, p),
