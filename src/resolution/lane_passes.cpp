@@ -47,7 +47,7 @@ void ConstraintBatches::take(const CpuState& state, uint batch) {
     lane_passes().take_constraints(state, &indices_[first], size, &lines_[batch * lines_a_batch()]);
 }
 
-void ConstraintBatches::pass_over(CpuState& state, ContactPass pass, uint substep, uint batch) const {
+void ConstraintBatches::pass_over(CpuState& state, ContactPass pass, uint substep, uint batch) {
     uint left_alone = lane_passes().over_constraints(state, pass, substep, &lines_[batch * lines_a_batch()]);
     for (; left_alone != 0; left_alone &= left_alone - 1)
         pass_over_constraint(state, pass, substep,

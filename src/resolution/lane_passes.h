@@ -30,7 +30,7 @@ struct LanePasses {
     /// Makes a batch of constraints that are prepared. No two may share a body that can be pushed, but a hub.
     void (*take_constraints)(const CpuState&, const uint* indices, uint count, void* batch);
     /// See pass_over_constraint.
-    uint (*over_constraints)(const CpuState&, ContactPass, uint substep, const void* batch);
+    uint (*over_constraints)(const CpuState&, ContactPass, uint substep, void* batch);
     /// See integrate_body.
     uint (*over_bodies)(const CpuState&, uint substep, const uint* indices, uint count);
 };
@@ -41,8 +41,8 @@ const LanePasses& lane_passes();
 /// See load_below.
 void tell_load(const CpuState&, const LoadBelow&, uint height);
 
-/// Constraints of one colour in batches, as many in each as there are lanes. What their passes need of them, but for
-/// what they change, stays in the form of lanes from the first pass of a step to the last.
+/// Constraints of one colour in batches, as many in each as there are lanes. What their passes need of them stays in
+/// the form of lanes from the first pass of a step to the last.
 class ConstraintBatches {
 public:
     /// For the constraints `indices`, each batch of which is to be taken before it is passed over.
@@ -50,7 +50,7 @@ public:
     uint count() const { return static_cast<uint>(indices_.size() + lane_passes().lanes - 1) / lane_passes().lanes; }
     void take(const CpuState&, uint batch);
     std::size_t memory_bytes() const { return line_count_ * sizeof(Line) + indices_.capacity() * sizeof(uint); }
-    void pass_over(CpuState&, ContactPass, uint substep, uint batch) const;
+    void pass_over(CpuState&, ContactPass, uint substep, uint batch);
 
 private:
     struct alignas(64) Line {

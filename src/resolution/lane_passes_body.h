@@ -230,16 +230,20 @@ struct Places {
     std::uint32_t hub_change[k_lanes]; ///< of constraints of hubs
 };
 
-/// What the passes of a step need of some constraints, one a lane, but for what they change.
+/// What the passes of a step need of some constraints, one a lane.
 struct ConstraintBatch {
     Places places;
     std::uint32_t lanes; ///< a bit for each that has one
+    std::uint32_t stale; ///< a bit for each whose impulses are the record's, as it was left alone
     std::uint32_t most_substeps;
     ULanes body_a, body_b, traits, substeps;
     Lanes hub_share, load_speed;
+    Substep substep;
+    Lanes half_h; ///< s, half of the movement that follows a pass in a sub-step
     vec3 gap;
     vec4 base_separation;
     ManifoldRows rows;
+    ManifoldImpulses impulses; ///< the records have them after the last pass of a step
 };
 
 TALUS_LANE ManifoldImpulses impulses_at(const CpuState& state, const std::uint32_t* places) {
@@ -261,22 +265,25 @@ TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places,
     put(14, is.total.x, is.total.y, is.total.z, is.total.w);
 }
 
+TALUS_LANE ManifoldImpulses choose(Mask m, const ManifoldImpulses& yes, const ManifoldImpulses& no) {
+    return {choose(m, yes.normal, no.normal), choose(m, yes.total, no.total), choose(m, yes.friction, no.friction),
+            choose(m, yes.moment, no.moment)};
+}
+
 /// As target_of_pass in contact_passes.h.
 TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ConstraintBatch& c, const ManifoldRows& rows,
                                      const ManifoldImpulses& impulses, const BodyDelta& delta_a,
                                      const BodyDelta& delta_b, const Parameters& p) {
     const bool relax = pass == ContactPass::Relax;
-    const Mask against_static = is_against_static(c.traits);
-    const Substep substep = make_substep(c.substeps, against_static, c.load_speed, p);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
     target.moved_since = relax;
     target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
-    target.half_h = choose(against_static && !Mask(relax), 0.5f * substep_length(c.substeps, p), 0.0f);
+    target.half_h = relax ? Lanes(0.0f) : c.half_h;
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
-                                       impulses.normal, !relax, substep, p);
-    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
+                                       impulses.normal, !relax, c.substep, p);
+    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, c.substep);
     return target;
 }
 
@@ -300,6 +307,7 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
     ConstraintBatch& batch = *static_cast<ConstraintBatch*>(memory);
     Places& places = batch.places;
     batch.lanes = (1u << count) - 1u;
+    batch.stale = batch.lanes;
     batch.most_substeps = 0;
     for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
         const std::uint32_t index = indices[lane < count ? lane : 0];
@@ -318,22 +326,27 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
     batch.substeps = c.substeps;
     batch.hub_share = c.hub_share;
     batch.load_speed = c.load_speed;
+    const Mask against_static = is_against_static(c.traits);
+    batch.substep = make_substep(c.substeps, against_static, c.load_speed, state.parameters);
+    batch.half_h = choose(against_static, 0.5f * substep_length(c.substeps, state.parameters), 0.0f);
     batch.gap = c.gap;
     batch.base_separation = c.base_separation;
     batch.rows = make_rows(c, inertias_at(state, places.body_a), inertias_at(state, places.body_b));
 }
 
 /// As pass_over_constraint in contact_passes.h.
-inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t substep,
-                                     const void* memory) {
-    const ConstraintBatch& batch = *static_cast<const ConstraintBatch*>(memory);
+inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t substep, void* memory) {
+    ConstraintBatch& batch = *static_cast<ConstraintBatch*>(memory);
     if (substep >= batch.most_substeps) return 0;
     const Places& places = batch.places;
-    std::uint32_t active = batch.lanes & bits_of(ULanes(substep) < batch.substeps), left_alone = 0;
+    if (batch.stale != 0)
+        batch.impulses = choose(mask_of(batch.stale), impulses_at(state, places.constraint), batch.impulses);
+    batch.stale = 0;
+    const Mask takes_part = ULanes(substep) < batch.substeps;
+    std::uint32_t active = batch.lanes & bits_of(takes_part);
     const ManifoldRows& rows = batch.rows;
-    const ManifoldState before{{velocities_at(state, places.body_a), velocities_at(state, places.body_b)},
-                               impulses_at(state, places.constraint),
-                               false};
+    const ManifoldState before{
+        {velocities_at(state, places.body_a), velocities_at(state, places.body_b)}, batch.impulses, false};
     ManifoldState s = before;
     if (pass == ContactPass::WarmStart) {
         s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
@@ -341,16 +354,20 @@ inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, st
         const PassTarget target = target_of_pass(pass, batch, rows, s.impulses, deltas_at(state, places.body_a),
                                                  deltas_at(state, places.body_b), state.parameters);
         s = solve_manifold(s, rows, target);
-        left_alone = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
-        active &= ~left_alone;
-        put_impulses(state, places.constraint, active, s.impulses, batch);
+        batch.stale = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
+        if (batch.stale != 0) put_impulses(state, places.constraint, batch.stale, before.impulses, batch);
+        active &= ~batch.stale;
+        batch.impulses = active == k_lane_mask ? s.impulses : choose(mask_of(active), s.impulses, before.impulses);
+        const bool is_last = pass == ContactPass::Relax;
+        const std::uint32_t ending = active & bits_of(Mask(is_last) || batch.substeps <= ULanes(substep + 1));
+        if (ending != 0) put_impulses(state, places.constraint, ending, s.impulses, batch);
     }
     const ULanes traits_of_b = batch.traits >> k_traits_of_b;
     put_velocity(state, places, places.body_a, active, batch.body_a, batch.traits, batch.hub_share, before.velocities.a,
                  s.velocities.a);
     put_velocity(state, places, places.body_b, active, batch.body_b, traits_of_b, batch.hub_share, before.velocities.b,
                  s.velocities.b);
-    return left_alone;
+    return batch.stale;
 }
 
 /// As integrate_body in body_passes.h.

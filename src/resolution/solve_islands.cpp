@@ -50,7 +50,7 @@ void solve_together(CpuState& state, const IslandWork& islands) {
             colours[colour].take(state, batch);
     }
     const auto over_contacts = [&](ContactPass pass, uint substep) {
-        for (const ConstraintBatches& colour : colours)
+        for (ConstraintBatches& colour : colours)
             for (uint batch = 0; batch < colour.count(); ++batch)
                 colour.pass_over(state, pass, substep, batch);
         for (const uint index : islands.colours[k_overflow_colour])

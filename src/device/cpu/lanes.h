@@ -244,72 +244,69 @@ TALUS_LANE vec4 choose(Mask m, vec4 yes, vec4 no) {
 typedef float Cell __attribute__((vector_size(16), may_alias, aligned(4))); // four words of one item
 
 /// Four of a thing, named one by one and nowhere seen by its address, so that the compiler keeps all in registers.
-struct FourCells {
-    Cell x, y, z, w;
-};
 struct FourLanes {
     Lanes x, y, z, w;
 };
 
-/// Rows become columns.
-TALUS_LANE FourCells transposed(FourCells c) {
-    const Cell low = __builtin_shufflevector(c.x, c.y, 0, 4, 1, 5),
-               low_2 = __builtin_shufflevector(c.z, c.w, 0, 4, 1, 5);
-    const Cell high = __builtin_shufflevector(c.x, c.y, 2, 6, 3, 7),
-               high_2 = __builtin_shufflevector(c.z, c.w, 2, 6, 3, 7);
-    return {__builtin_shufflevector(low, low_2, 0, 1, 4, 5), __builtin_shufflevector(low, low_2, 2, 3, 6, 7),
-            __builtin_shufflevector(high, high_2, 0, 1, 4, 5), __builtin_shufflevector(high, high_2, 2, 3, 6, 7)};
-}
-
-/// The cell at this place in four records.
-template <typename Record>
-TALUS_LANE FourCells cells_at(const Record* items, const std::uint32_t* places, std::size_t cell) {
-    const auto at = [&](std::size_t lane) __attribute__((always_inline)) {
-        return reinterpret_cast<const Cell*>(&items[places[lane]])[cell];
+/// In each quarter of the lanes, which are four, rows become columns.
+TALUS_LANE FourLanes transposed(FourLanes r) {
+    const auto low = [](Lanes a, Lanes b) __attribute__((always_inline)) {
+#if TALUS_LANES == 4
+        return __builtin_shufflevector(a.v, b.v, 0, 4, 1, 5);
+#else
+        return __builtin_shufflevector(a.v, b.v, 0, 8, 1, 9, 4, 12, 5, 13);
+#endif
     };
-    return {at(0), at(1), at(2), at(3)};
-}
-
-template <typename Record> TALUS_LANE void put_cells(Record* items, const std::uint32_t* places, std::size_t cell,
-                                                     std::uint32_t lanes, FourCells c) {
-    if ((lanes & 1u) != 0) reinterpret_cast<Cell*>(&items[places[0]])[cell] = c.x;
-    if ((lanes & 2u) != 0) reinterpret_cast<Cell*>(&items[places[1]])[cell] = c.y;
-    if ((lanes & 4u) != 0) reinterpret_cast<Cell*>(&items[places[2]])[cell] = c.z;
-    if ((lanes & 8u) != 0) reinterpret_cast<Cell*>(&items[places[3]])[cell] = c.w;
+    const auto high = [](Lanes a, Lanes b) __attribute__((always_inline)) {
+#if TALUS_LANES == 4
+        return __builtin_shufflevector(a.v, b.v, 2, 6, 3, 7);
+#else
+        return __builtin_shufflevector(a.v, b.v, 2, 10, 3, 11, 6, 14, 7, 15);
+#endif
+    };
+    const Lanes xz_low(low(r.x, r.z)), yw_low(low(r.y, r.w)), xz_high(high(r.x, r.z)), yw_high(high(r.y, r.w));
+    return {Lanes(low(xz_low, yw_low)), Lanes(high(xz_low, yw_low)), Lanes(low(xz_high, yw_high)),
+            Lanes(high(xz_high, yw_high))};
 }
 
 /// The four words of the cell `cell` of the item `places[lane]` in each lane.
 template <typename Record>
 TALUS_LANE FourLanes gather(const Record* items, const std::uint32_t* places, std::size_t cell) {
-    const FourCells low = transposed(cells_at(items, places, cell));
-#if TALUS_LANES == 4
-    return {Lanes(FloatVector(low.x)), Lanes(FloatVector(low.y)), Lanes(FloatVector(low.z)), Lanes(FloatVector(low.w))};
-#else
-    const FourCells high = transposed(cells_at(items, places + 4, cell));
-    const auto join = [](Cell a, Cell b) __attribute__((always_inline)) {
-        return Lanes(FloatVector(__builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7)));
+    const auto at = [&](std::size_t lane) __attribute__((always_inline)) {
+        return reinterpret_cast<const Cell*>(&items[places[lane]])[cell];
     };
-    return {join(low.x, high.x), join(low.y, high.y), join(low.z, high.z), join(low.w, high.w)};
+    const auto row = [&](std::size_t lane) __attribute__((always_inline)) {
+#if TALUS_LANES == 4
+        return Lanes(FloatVector(at(lane)));
+#else
+        return Lanes(FloatVector(__builtin_shufflevector(at(lane), at(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7)));
 #endif
+    };
+    return transposed({row(0), row(1), row(2), row(3)});
 }
 
 /// Writes them, to the items whose lane has its bit set.
 template <typename Record> TALUS_LANE void scatter(Record* items, const std::uint32_t* places, std::size_t cell,
                                                    std::uint32_t lanes, FourLanes words) {
-#if TALUS_LANES == 4
-    put_cells(items, places, cell, lanes,
-              transposed({Cell(words.x.v), Cell(words.y.v), Cell(words.z.v), Cell(words.w.v)}));
-#else
-    const auto low = [](Lanes a) __attribute__((always_inline)) {
-        return Cell(__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3));
-    };
-    const auto high = [](Lanes a) __attribute__((always_inline)) {
-        return Cell(__builtin_shufflevector(a.v, a.v, 4, 5, 6, 7));
-    };
-    put_cells(items, places, cell, lanes, transposed({low(words.x), low(words.y), low(words.z), low(words.w)}));
-    put_cells(items, places + 4, cell, lanes >> 4,
-              transposed({high(words.x), high(words.y), high(words.z), high(words.w)}));
+    const FourLanes rows = transposed(words);
+    const auto put = [&](std::size_t lane, Lanes row, bool always) __attribute__((always_inline)) {
+        if (always || (lanes >> lane & 1u) != 0)
+            reinterpret_cast<Cell*>(&items[places[lane]])[cell] = __builtin_shufflevector(row.v, row.v, 0, 1, 2, 3);
+#if TALUS_LANES == 8
+        if (always || (lanes >> (lane + 4) & 1u) != 0)
+            reinterpret_cast<Cell*>(&items[places[lane + 4]])[cell] = __builtin_shufflevector(row.v, row.v, 4, 5, 6, 7);
 #endif
+    };
+    const auto put_rows = [&](bool always) __attribute__((always_inline)) {
+        put(0, rows.x, always);
+        put(1, rows.y, always);
+        put(2, rows.z, always);
+        put(3, rows.w, always);
+    };
+    if (lanes == k_lane_mask)
+        put_rows(true);
+    else
+        put_rows(false);
 }
 
 /// The first three of four words.
