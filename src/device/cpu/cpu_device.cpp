@@ -7,6 +7,7 @@
 #include <fstream>
 #include <new>
 
+#include "broad_phase/lane_sweep.h"
 #include "device/cpu/cpu_state.h"
 #include "device/cpu/flush_denormals.h"
 #include "resolution/solve_contacts.h"
@@ -93,6 +94,7 @@ public:
         std::uint64_t sum = 0;
         for (const Storage& storage : storages)
             sum += storage.size();
+        if (state.sweep_memory != nullptr) sum += state.sweep_memory->memory_bytes();
         if (state.solver_batches != nullptr) sum += engine::memory_bytes(*state.solver_batches);
         return sum;
     }

@@ -40,7 +40,9 @@ struct CpuState {
     }
 
     const CpuThreads* threads = nullptr;
-    std::shared_ptr<struct SolverBatches> solver_batches; ///< what solve_contacts keeps from launch to launch
+    // What twins keep from launch to launch:
+    std::shared_ptr<class SweepMemory> sweep_memory;      ///< sweep_pairs
+    std::shared_ptr<struct SolverBatches> solver_batches; ///< solve_contacts
 };
 
 } // namespace talus::engine

@@ -232,6 +232,9 @@ TALUS_OPERATOR(-)
 TALUS_OPERATOR(*)
 #undef TALUS_OPERATOR
 
+TALUS_LANE vec3 abs(vec3 v) {
+    return {abs(v.x), abs(v.y), abs(v.z)};
+}
 TALUS_LANE vec3 choose(Mask m, vec3 yes, vec3 no) {
     return {choose(m, yes.x, no.x), choose(m, yes.y, no.y), choose(m, yes.z, no.z)};
 }
