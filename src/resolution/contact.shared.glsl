@@ -355,8 +355,13 @@ inline uint sweeps_at(vec4 velocity)
 inline NormalSweep solve_normals(NormalSweep sweep, ManifoldRows rows, NormalTarget target)
 {
     uint sweeps = sweeps_at(sweep.velocity);
-    for (uint i = 0u; any_lane(i < sweeps); i += 1u)
-        sweep = choose_active(i < sweeps, sweep_normals(sweep, rows, target), sweep);
+    for (uint i = 0u; any_lane(i < sweeps); i += 1u) {
+        NormalSweep next = sweep_normals(sweep, rows, target);
+        if (all_lanes(i < sweeps))
+            sweep = next;
+        else
+            sweep = choose_active(i < sweeps, next, sweep);
+    }
     return sweep;
 }
 

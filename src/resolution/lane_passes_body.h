@@ -9,13 +9,13 @@ namespace talus::engine::TALUS_LANES_NAME {
 
 // ---- records of lanes, cell by cell as records.shared.glsl has them ----
 
-TALUS_LANE BodyVelocity velocities_at(const CpuState& state, const std::uint32_t* bodies) {
+template <typename Places> TALUS_LANE BodyVelocity velocities_at(const CpuState& state, const Places& bodies) {
     const auto linear = gather(state.velocities.data, bodies, 0), angular = gather(state.velocities.data, bodies, 1);
     return {three_of(linear), linear.w, three_of(angular), angular.w};
 }
 
-TALUS_LANE void put_velocities(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
-                               const BodyVelocity& v) {
+template <typename Places> TALUS_LANE void put_velocities(const CpuState& state, const Places& bodies,
+                                                          std::uint32_t lanes, const BodyVelocity& v) {
     const std::uint32_t pushed = lanes & bits_of(v.inverse_mass != 0.0f);
     scatter(state.velocities.data, bodies, 0, pushed, {v.linear.x, v.linear.y, v.linear.z, v.inverse_mass});
     scatter(state.velocities.data, bodies, 1, pushed, {v.angular.x, v.angular.y, v.angular.z, v.reserved});
@@ -55,12 +55,12 @@ TALUS_LANE BodyLoad loads_at(const CpuState& state, const std::uint32_t* bodies)
     return {three_of(force), floatBitsToUint(force.w), three_of(torque), torque.w};
 }
 
-TALUS_LANE BodyDelta deltas_at(const CpuState& state, const std::uint32_t* bodies) {
+template <typename Places> TALUS_LANE BodyDelta deltas_at(const CpuState& state, const Places& bodies) {
     const auto position = gather(state.deltas.data, bodies, 0);
     return {three_of(position), position.w, all_of(gather(state.deltas.data, bodies, 1))};
 }
 
-TALUS_LANE BodyInertia inertias_at(const CpuState& state, const std::uint32_t* bodies) {
+template <typename Places> TALUS_LANE BodyInertia inertias_at(const CpuState& state, const Places& bodies) {
     const auto first = gather(state.inertias.data, bodies, 0), second = gather(state.inertias.data, bodies, 1);
     return {
         first.x, first.y, first.z, first.w, second.x, second.y, floatBitsToUint(second.z), floatBitsToUint(second.w)};
@@ -225,8 +225,11 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
 
 // ---- the passes ----
 
+using BodyOffsets = Offsets<sizeof(engine::BodyVelocity)>; ///< in all arrays of records of this size
+
 struct Places {
-    std::uint32_t constraint[k_lanes], body_a[k_lanes], body_b[k_lanes];
+    BodyOffsets body_a, body_b;
+    std::uint32_t constraint[k_lanes];
     std::uint32_t hub_change[k_lanes]; ///< of constraints of hubs
 };
 
@@ -288,7 +291,7 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ConstraintBatch& c,
 }
 
 /// As in contact_passes.h.
-TALUS_LANE void put_velocity(const CpuState& state, const Places& places, const std::uint32_t* bodies,
+TALUS_LANE void put_velocity(const CpuState& state, const Places& places, const BodyOffsets& bodies,
                              std::uint32_t lanes, ULanes body, ULanes its_traits, Lanes hub_share,
                              const BodyVelocity& before, const BodyVelocity& after) {
     const std::uint32_t of_hubs = bits_of((its_traits & k_trait_hub) != 0u);
@@ -313,8 +316,8 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
         const std::uint32_t index = indices[lane < count ? lane : 0];
         const engine::ContactConstraint& c = state.constraints.data[index];
         places.constraint[lane] = index;
-        places.body_a[lane] = c.body_a;
-        places.body_b[lane] = c.body_b;
+        places.body_a.bytes[lane] = sizeof(engine::BodyVelocity) * c.body_a;
+        places.body_b.bytes[lane] = sizeof(engine::BodyVelocity) * c.body_b;
         batch.most_substeps = c.substeps > batch.most_substeps ? c.substeps : batch.most_substeps;
         if ((c.traits & (k_trait_hub | k_trait_hub << engine::k_traits_of_b)) != 0)
             places.hub_change[lane] = index - state.colour_offsets[k_first_hub_colour];

@@ -11,6 +11,9 @@
 #include <cstdint>
 
 #include <glm/vec3.hpp>
+#if TALUS_LANES == 8
+#include <immintrin.h>
+#endif
 
 namespace talus::engine::TALUS_LANES_NAME {
 
@@ -272,32 +275,45 @@ TALUS_LANE FourLanes transposed(FourLanes r) {
             Lanes(high(xz_high, yw_high))};
 }
 
-/// The four words of the cell `cell` of the item `places[lane]` in each lane.
+/// Where an item lies in each lane: its number, or how many bytes after the first one.
+template <std::size_t record_size> struct Offsets { std::size_t bytes[k_lanes]; };
+template <typename Record> TALUS_LANE Record* item_at(Record* items, const std::uint32_t* places, std::size_t lane) {
+    return items + places[lane];
+}
 template <typename Record>
-TALUS_LANE FourLanes gather(const Record* items, const std::uint32_t* places, std::size_t cell) {
+TALUS_LANE Record* item_at(Record* items, const Offsets<sizeof(Record)>& places, std::size_t lane) {
+    return reinterpret_cast<Record*>(reinterpret_cast<std::uintptr_t>(items) + places.bytes[lane]);
+}
+
+/// The four words of the cell `cell` of an item in each lane.
+template <typename Record, typename Places>
+TALUS_LANE FourLanes gather(const Record* items, const Places& places, std::size_t cell) {
     const auto at = [&](std::size_t lane) __attribute__((always_inline)) {
-        return reinterpret_cast<const Cell*>(&items[places[lane]])[cell];
+        return reinterpret_cast<const Cell*>(item_at(items, places, lane))[cell];
     };
     const auto row = [&](std::size_t lane) __attribute__((always_inline)) {
 #if TALUS_LANES == 4
         return Lanes(FloatVector(at(lane)));
 #else
-        return Lanes(FloatVector(__builtin_shufflevector(at(lane), at(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7)));
+        return Lanes(FloatVector(_mm256_set_m128(at(lane + 4), at(lane))));
 #endif
     };
     return transposed({row(0), row(1), row(2), row(3)});
 }
 
 /// Writes them, to the items whose lane has its bit set.
-template <typename Record> TALUS_LANE void scatter(Record* items, const std::uint32_t* places, std::size_t cell,
-                                                   std::uint32_t lanes, FourLanes words) {
+template <typename Record, typename Places>
+TALUS_LANE void scatter(Record* items, const Places& places, std::size_t cell, std::uint32_t lanes, FourLanes words) {
     const FourLanes rows = transposed(words);
     const auto put = [&](std::size_t lane, Lanes row, bool always) __attribute__((always_inline)) {
-        if (always || (lanes >> lane & 1u) != 0)
-            reinterpret_cast<Cell*>(&items[places[lane]])[cell] = __builtin_shufflevector(row.v, row.v, 0, 1, 2, 3);
-#if TALUS_LANES == 8
-        if (always || (lanes >> (lane + 4) & 1u) != 0)
-            reinterpret_cast<Cell*>(&items[places[lane + 4]])[cell] = __builtin_shufflevector(row.v, row.v, 4, 5, 6, 7);
+        const auto put_cell = [&](std::size_t to, Cell value) __attribute__((always_inline)) {
+            if (always || (lanes >> to & 1u) != 0) reinterpret_cast<Cell*>(item_at(items, places, to))[cell] = value;
+        };
+#if TALUS_LANES == 4
+        put_cell(lane, Cell(row.v));
+#else
+        put_cell(lane, _mm256_castps256_ps128(row.v));
+        put_cell(lane + 4, _mm256_extractf128_ps(row.v, 1));
 #endif
     };
     const auto put_rows = [&](bool always) __attribute__((always_inline)) {
