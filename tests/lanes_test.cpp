@@ -212,10 +212,10 @@ std::vector<PassOfSubstep> passes_of_step(bool relax) {
 }
 
 /// Some constraints in batches, as ConstraintBatches has them for the lanes of this machine.
-class Batches {
+class SomeBatches {
 public:
-    Batches(const LanePasses& passes, const CpuState& state, std::vector<uint> indices)
-        : passes_(passes), indices_(std::move(indices)), lines_(passes.batch_bytes / sizeof(Line) + 1),
+    SomeBatches(const LanePasses& passes, const CpuState& state, std::vector<uint> indices)
+        : passes_(passes), indices_(std::move(indices)), lines_(passes.constraint_batch_bytes / sizeof(Line) + 1),
           memory_(lines_ * (indices_.size() / passes.lanes + 1)) {
         treat(
             passes_, indices_,
@@ -230,7 +230,7 @@ public:
         return treat(
             passes_, indices_,
             [&](const uint* part, uint) {
-                return passes_.over_constraints(state, each.pass, each.substep, batch_of(part));
+                return passes_.pass_over_constraints(state, each.pass, each.substep, batch_of(part));
             },
             [&](uint i) { pass_over_constraint(state, each.pass, each.substep, i); });
     }
@@ -255,7 +255,7 @@ TEST(Lanes, pass_over_contacts_with_the_bits_of_one_at_a_time) {
                     Items one(count, restitution), lanes(count, restitution);
                     CpuState one_state = one.state(), lanes_state = lanes.state();
                     const std::vector<uint> indices = first_items(count);
-                    Batches batches(*passes, lanes_state, indices);
+                    SomeBatches batches(*passes, lanes_state, indices);
                     uint left = 0;
                     for (const PassOfSubstep each : passes_of_step(relax)) {
                         SCOPED_TRACE(std::to_string(passes->lanes) + " lanes, pass " +
@@ -293,9 +293,13 @@ TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
                 const std::vector<uint> indices = first_items(count);
                 for (const uint i : indices)
                     integrate_body(one_state, i, substep);
+                std::vector<Line> batch(passes->body_batch_bytes / sizeof(Line) + 1);
                 treat(
                     *passes, indices,
-                    [&](const uint* part, uint size) { return passes->over_bodies(lanes_state, substep, part, size); },
+                    [&](const uint* part, uint size) {
+                        passes->take_bodies(lanes_state, part, size, batch.data());
+                        return passes->integrate_bodies(lanes_state, substep, batch.data());
+                    },
                     [&](uint i) { integrate_body(lanes_state, i, substep); });
                 expect_same(one, lanes);
             }

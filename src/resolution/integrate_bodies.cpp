@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of integrate_bodies.comp.glsl.
-#include "resolution/lane_passes.h"
 #include "resolution/resolution.h"
+#include "resolution/solve_contacts.h"
 
 namespace talus::engine {
 
+static std::vector<uint> bodies_to_integrate(const CpuState& state) {
+    std::vector<uint> bodies;
+    for (uint body = 0; body < state.parameters.body_count; ++body) {
+        const BodyInertia& inertia = state.inertias[body];
+        const bool is_grouped = (inertia.traits & k_trait_grouped) != 0; // see solve_island_groups
+        if (!is_grouped && inertia.substeps > 0) bodies.push_back(body);
+    }
+    return bodies;
+}
+
 static void integrate_bodies_on_cpu(CpuState& state, const Launch& launch) {
-    for_each_part(state, 0, state.parameters.body_count, [&](const uint* bodies, uint count) {
-        uint wanted[k_most_lanes];
-        uint wanted_count = 0;
-        for (uint i = 0; i < count; ++i) {
-            const BodyInertia& inertia = state.inertias[bodies[i]];
-            const bool is_grouped = (inertia.traits & k_trait_grouped) != 0; // see solve_island_groups
-            if (!is_grouped && inertia.substeps > 0) wanted[wanted_count++] = bodies[i];
-        }
-        pass_over_bodies(state, launch.args[0], wanted, wanted_count);
-    });
+    const uint substep = launch.args[0], grain = k_parallel_grain / 4 / lane_passes().lanes;
+    BodyBatches& bodies = solver_batches(state).bodies;
+    if (substep == 0) {
+        bodies.assign(bodies_to_integrate(state));
+        state.parallel(
+            bodies.count(), [&](uint batch) { bodies.take(state, batch); }, grain);
+    }
+    state.parallel(
+        bodies.count(), [&](uint batch) { bodies.integrate(state, substep, batch); }, grain);
 }
 
 const Kernel integrate_bodies{"resolution/integrate_bodies", integrate_bodies_on_cpu};

@@ -7,19 +7,6 @@
 #include "resolution/body_passes.h"
 
 namespace talus::engine {
-namespace {
-
-template <typename Pass, typename One> void treat(const uint* indices, uint count, const Pass& pass, const One& one) {
-    const uint lanes = lane_passes().lanes;
-    for (uint first = 0; first < count; first += lanes) {
-        uint left_alone = pass(indices + first, std::min(lanes, count - first));
-        for (; left_alone != 0; left_alone &= left_alone - 1)
-            one(indices[first + static_cast<uint>(findLSB(left_alone))]);
-    }
-}
-
-} // namespace
-
 // One a file, as each is compiled for its own instructions.
 extern const LanePasses lane_passes_base;
 #ifdef TALUS_HAS_AVX2
@@ -33,32 +20,38 @@ const LanePasses& lane_passes() {
     return lane_passes_base;
 }
 
-void ConstraintBatches::assign(std::vector<uint> indices) {
+void Batches::assign(std::vector<uint> indices, std::size_t batch_bytes) {
     indices_ = std::move(indices);
-    const std::size_t wanted = count() * lines_a_batch();
+    lines_a_batch_ = (batch_bytes + sizeof(Line) - 1) / sizeof(Line);
+    const std::size_t wanted = count() * lines_a_batch_;
     if (wanted <= line_count_) return;
     lines_ = std::make_unique_for_overwrite<Line[]>(wanted);
     line_count_ = wanted;
 }
 
+uint Batches::size_of(uint batch) const {
+    const uint lanes = lane_passes().lanes;
+    return std::min(lanes, static_cast<uint>(indices_.size()) - batch * lanes);
+}
+
 void ConstraintBatches::take(const CpuState& state, uint batch) {
-    const uint lanes = lane_passes().lanes, first = batch * lanes;
-    const uint size = std::min(lanes, static_cast<uint>(indices_.size()) - first);
-    lane_passes().take_constraints(state, &indices_[first], size, &lines_[batch * lines_a_batch()]);
+    lane_passes().take_constraints(state, indices_of(batch), size_of(batch), memory_of(batch));
 }
 
 void ConstraintBatches::pass_over(CpuState& state, ContactPass pass, uint substep, uint batch) {
-    uint left_alone = lane_passes().over_constraints(state, pass, substep, &lines_[batch * lines_a_batch()]);
+    uint left_alone = lane_passes().pass_over_constraints(state, pass, substep, memory_of(batch));
     for (; left_alone != 0; left_alone &= left_alone - 1)
-        pass_over_constraint(state, pass, substep,
-                             indices_[batch * lane_passes().lanes + static_cast<uint>(findLSB(left_alone))]);
+        pass_over_constraint(state, pass, substep, indices_of(batch)[findLSB(left_alone)]);
 }
 
-void pass_over_bodies(CpuState& state, uint substep, const uint* indices, uint count) {
-    treat(
-        indices, count,
-        [&](const uint* part, uint size) { return lane_passes().over_bodies(state, substep, part, size); },
-        [&](uint body) { integrate_body(state, body, substep); });
+void BodyBatches::take(const CpuState& state, uint batch) {
+    lane_passes().take_bodies(state, indices_of(batch), size_of(batch), memory_of(batch));
+}
+
+void BodyBatches::integrate(CpuState& state, uint substep, uint batch) {
+    uint left_alone = lane_passes().integrate_bodies(state, substep, memory_of(batch));
+    for (; left_alone != 0; left_alone &= left_alone - 1)
+        integrate_body(state, indices_of(batch)[findLSB(left_alone)], substep);
 }
 
 } // namespace talus::engine

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "device/cpu/instruction_set.h"
@@ -20,19 +21,24 @@ struct ContactToPrepare {
     float hub_share; ///< 1 but in the colours of hubs
 };
 
-/// The functions treat the items `indices`, at most `lanes` of them. The passes have a bit set in their result for each
-/// that they have left alone: what is rare, as hits, is for the functions that treat one item.
+/// What passes need of some items is kept from the first pass of a step to the last in a batch, which has one in each
+/// lane. A pass has a bit set in its result for each that it has left alone: what is rare, as hits, is for the
+/// functions that treat one item.
 struct LanePasses {
-    uint lanes;              ///< items side by side
-    std::size_t batch_bytes; ///< of what is kept of as many constraints from pass to pass
+    uint lanes; ///< items side by side
     /// Writes the constraints of at most `lanes` manifolds, and tells their loads.
     void (*prepare_contacts)(const CpuState&, const ContactToPrepare*, uint count);
-    /// Makes a batch of constraints that are prepared. No two may share a body that can be pushed, but a hub.
+
+    std::size_t constraint_batch_bytes;
+    /// Of constraints that are prepared. No two may share a body that can be pushed, but a hub.
     void (*take_constraints)(const CpuState&, const uint* indices, uint count, void* batch);
     /// See pass_over_constraint.
-    uint (*over_constraints)(const CpuState&, ContactPass, uint substep, void* batch);
+    uint (*pass_over_constraints)(const CpuState&, ContactPass, uint substep, void* batch);
+
+    std::size_t body_batch_bytes;
+    void (*take_bodies)(const CpuState&, const uint* indices, uint count, void* batch);
     /// See integrate_body.
-    uint (*over_bodies)(const CpuState&, uint substep, const uint* indices, uint count);
+    uint (*integrate_bodies)(const CpuState&, uint substep, void* batch);
 };
 
 /// For the widest registers that this machine has.
@@ -41,42 +47,44 @@ const LanePasses& lane_passes();
 /// See load_below.
 void tell_load(const CpuState&, const LoadBelow&, uint height);
 
-/// Constraints of one colour in batches, as many in each as there are lanes. What their passes need of them stays in
-/// the form of lanes from the first pass of a step to the last.
-class ConstraintBatches {
+/// Items in batches, as many in each as there are lanes.
+class Batches {
 public:
-    /// For the constraints `indices`, each batch of which is to be taken before it is passed over.
-    void assign(std::vector<uint> indices);
+    /// For the items `indices`, each batch of which is to be taken before it is passed over.
+    void assign(std::vector<uint> indices, std::size_t batch_bytes);
     uint count() const { return static_cast<uint>(indices_.size() + lane_passes().lanes - 1) / lane_passes().lanes; }
-    void take(const CpuState&, uint batch);
     std::size_t memory_bytes() const { return line_count_ * sizeof(Line) + indices_.capacity() * sizeof(uint); }
-    void pass_over(CpuState&, ContactPass, uint substep, uint batch);
+
+protected:
+    const uint* indices_of(uint batch) const { return &indices_[batch * lane_passes().lanes]; }
+    uint size_of(uint batch) const;
+    void* memory_of(uint batch) { return &lines_[batch * lines_a_batch_]; }
 
 private:
     struct alignas(64) Line {
         std::byte bytes[64];
     };
-    static std::size_t lines_a_batch() { return (lane_passes().batch_bytes + sizeof(Line) - 1) / sizeof(Line); }
 
     std::vector<uint> indices_;
     std::unique_ptr<Line[]> lines_;
-    std::size_t line_count_ = 0;
+    std::size_t line_count_ = 0, lines_a_batch_ = 0;
 };
 
-void pass_over_bodies(CpuState&, uint substep, const uint* indices, uint count);
+/// Constraints of one colour.
+class ConstraintBatches : public Batches {
+public:
+    void assign(std::vector<uint> indices) {
+        Batches::assign(std::move(indices), lane_passes().constraint_batch_bytes);
+    }
+    void take(const CpuState&, uint batch);
+    void pass_over(CpuState&, ContactPass, uint substep, uint batch);
+};
 
-/// Calls part(indices, size) on all threads for parts of `first` to `first` + `count` - 1, as many items as there are
-/// lanes each.
-template <typename Part> void for_each_part(const CpuState& state, uint first, uint count, const Part& part) {
-    const uint lanes = lane_passes().lanes;
-    const auto call = [&](uint index) {
-        uint indices[k_most_lanes];
-        const uint begin = index * lanes, size = min(lanes, count - begin);
-        for (uint i = 0; i < size; ++i)
-            indices[i] = first + begin + i;
-        part(static_cast<const uint*>(indices), size);
-    };
-    state.parallel((count + lanes - 1) / lanes, call, k_parallel_grain / 4 / lanes);
-}
+class BodyBatches : public Batches {
+public:
+    void assign(std::vector<uint> indices) { Batches::assign(std::move(indices), lane_passes().body_batch_bytes); }
+    void take(const CpuState&, uint batch);
+    void integrate(CpuState&, uint substep, uint batch);
+};
 
 } // namespace talus::engine

@@ -8,10 +8,12 @@ namespace talus::engine {
 
 extern const LanePasses lane_passes_avx2;
 const LanePasses lane_passes_avx2{TALUS_LANES,
-                                  sizeof(lanes_avx2::ConstraintBatch),
                                   lanes_avx2::prepare_contacts,
+                                  sizeof(lanes_avx2::ConstraintBatch),
                                   lanes_avx2::take_constraints,
                                   lanes_avx2::pass_over_batch,
-                                  lanes_avx2::integrate_bodies};
+                                  sizeof(lanes_avx2::BodyBatch),
+                                  lanes_avx2::take_bodies,
+                                  lanes_avx2::integrate_batch};
 
 } // namespace talus::engine

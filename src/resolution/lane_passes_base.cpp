@@ -8,10 +8,12 @@ namespace talus::engine {
 
 extern const LanePasses lane_passes_base;
 const LanePasses lane_passes_base{TALUS_LANES,
-                                  sizeof(lanes_base::ConstraintBatch),
                                   lanes_base::prepare_contacts,
+                                  sizeof(lanes_base::ConstraintBatch),
                                   lanes_base::take_constraints,
                                   lanes_base::pass_over_batch,
-                                  lanes_base::integrate_bodies};
+                                  sizeof(lanes_base::BodyBatch),
+                                  lanes_base::take_bodies,
+                                  lanes_base::integrate_batch};
 
 } // namespace talus::engine

@@ -7,6 +7,8 @@
 
 namespace talus::engine::TALUS_LANES_NAME {
 
+using BodyOffsets = Offsets<sizeof(engine::BodyVelocity)>; ///< in all arrays of records of this size
+
 // ---- records of lanes, cell by cell as records.shared.glsl has them ----
 
 template <typename Places> TALUS_LANE BodyVelocity velocities_at(const CpuState& state, const Places& bodies) {
@@ -21,8 +23,8 @@ template <typename Places> TALUS_LANE void put_velocities(const CpuState& state,
     scatter(state.velocities.data, bodies, 1, pushed, {v.angular.x, v.angular.y, v.angular.z, v.reserved});
 }
 
-TALUS_LANE void put_deltas(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
-                           const BodyDelta& d) {
+template <typename Places>
+TALUS_LANE void put_deltas(const CpuState& state, const Places& bodies, std::uint32_t lanes, const BodyDelta& d) {
     scatter(state.deltas.data, bodies, 0, lanes, {d.position.x, d.position.y, d.position.z, d.reserved});
     scatter(state.deltas.data, bodies, 1, lanes, {d.rotation.x, d.rotation.y, d.rotation.z, d.rotation.w});
 }
@@ -225,8 +227,6 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
 
 // ---- the passes ----
 
-using BodyOffsets = Offsets<sizeof(engine::BodyVelocity)>; ///< in all arrays of records of this size
-
 struct Places {
     BodyOffsets body_a, body_b;
     std::uint32_t constraint[k_lanes];
@@ -373,48 +373,80 @@ inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, st
     return batch.stale;
 }
 
-/// As integrate_body in body_passes.h.
-inline std::uint32_t integrate_bodies(const CpuState& state, std::uint32_t substep, const std::uint32_t* indices,
-                                      std::uint32_t count) {
-    std::uint32_t bodies[k_lanes];
-    std::uint32_t active = 0, ending = 0, rigid = 0; // bits
+/// What the sub-steps of a step need of some bodies, one a lane.
+struct BodyBatch {
+    BodyOffsets offsets;
+    std::uint32_t indices[k_lanes];
+    std::uint32_t lanes; ///< a bit for each that moves
+    std::uint32_t most_substeps;
+    Mask rigid;
+    ULanes substeps;
+    Lanes h; ///< s
+    vec4 rotation;
+    BodyInertia inertia;
+    BodyProperties properties;
+    BodyLoad load;
+    BodyDelta delta; ///< the records have it, too
+};
+
+/// See LanePasses.
+inline void take_bodies(const CpuState& state, const std::uint32_t* indices, std::uint32_t count, void* memory) {
+    BodyBatch& batch = *static_cast<BodyBatch*>(memory);
+    batch.lanes = 0;
+    batch.most_substeps = 0;
+    std::uint32_t rigid = 0; // bits
     for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
-        const std::uint32_t body = bodies[lane] = indices[lane < count ? lane : 0];
-        const std::uint32_t substeps = state.inertias.data[body].substeps, bit = 1u << lane;
+        const std::uint32_t body = indices[lane < count ? lane : 0], bit = 1u << lane;
+        batch.indices[lane] = body;
+        batch.offsets.bytes[lane] = sizeof(engine::BodyVelocity) * body;
         const std::uint32_t kind = state.shapes.data[body].type >> 8 & 255u; // see kind_of
-        if (lane >= count || substep > substeps || substeps == 0 ||
-            (kind != k_kind_rigid && kind != k_kind_kinematic) || (state.poses.data[body].flags & k_body_frozen) != 0)
+        const std::uint32_t substeps = state.inertias.data[body].substeps;
+        if (lane >= count || (kind != k_kind_rigid && kind != k_kind_kinematic) || substeps == 0 ||
+            (state.poses.data[body].flags & k_body_frozen) != 0)
             continue;
-        active |= bit;
-        if (substep == substeps) ending |= bit;
+        batch.lanes |= bit;
+        batch.most_substeps = substeps > batch.most_substeps ? substeps : batch.most_substeps;
         if (kind == k_kind_rigid) rigid |= bit;
     }
-    if (active == 0) return 0;
+    batch.rigid = mask_of(rigid);
+    batch.inertia = inertias_at(state, batch.offsets);
+    batch.substeps = batch.inertia.substeps;
+    batch.h = substep_length(batch.substeps, state.parameters);
+    batch.rotation = all_of(gather(state.poses.data, batch.offsets, 1));
+    batch.properties = properties_at(state, batch.indices);
+    batch.load = loads_at(state, batch.indices);
+    batch.delta = deltas_at(state, batch.offsets);
+}
 
-    const Parameters& p = state.parameters;
-    const BodyInertia inertia = inertias_at(state, bodies);
-    const Lanes h = substep_length(inertia.substeps, p);
-    BodyVelocity velocity = velocities_at(state, bodies);
-    BodyDelta delta = deltas_at(state, bodies);
-    BodyWarmStart warm = warm_starts_at(state, bodies);
-    if (substep > 0) delta = integrate_position(delta, warm, velocity, h);
-    const std::uint32_t going_on = active & ~ending;
+/// As integrate_body in body_passes.h.
+inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t substep, void* memory) {
+    BodyBatch& batch = *static_cast<BodyBatch*>(memory);
+    if (batch.lanes == 0 || substep > batch.most_substeps) return 0;
+    const std::uint32_t active = batch.lanes & bits_of(ULanes(substep) <= batch.substeps);
+    const std::uint32_t going_on = active & bits_of(ULanes(substep) < batch.substeps);
+    BodyVelocity velocity = velocities_at(state, batch.offsets);
+    BodyWarmStart warm = warm_starts_at(state, batch.indices);
+    const BodyDelta delta = substep > 0 ? integrate_position(batch.delta, warm, velocity, batch.h) : batch.delta;
     std::uint32_t unusual = 0;
     if (going_on != 0) {
-        const vec4 rotation = multiply_quaternions(delta.rotation, all_of(gather(state.poses.data, bodies, 1)));
+        const vec4 rotation = multiply_quaternions(delta.rotation, batch.rotation);
         warm = gather_impulses(warm, velocity);
-        velocity = integrate_velocity(velocity, warm, rotation, properties_at(state, bodies), inertia,
-                                      loads_at(state, bodies), mask_of(rigid), h, p);
+        velocity = integrate_velocity(velocity, warm, rotation, batch.properties, batch.inertia, batch.load,
+                                      batch.rigid, batch.h, state.parameters);
         unusual = going_on & ~bits_of(is_finite3(velocity.linear) && is_finite3(velocity.angular));
         warm.linear_before = velocity.linear;
         warm.angular_before = velocity.angular;
-        put_warm_starts(state, bodies, going_on & ~unusual, warm);
-        scatter(state.velocities.data, bodies, 0, going_on & ~unusual,
+        put_warm_starts(state, batch.indices, going_on & ~unusual, warm);
+        scatter(state.velocities.data, batch.offsets, 0, going_on & ~unusual,
                 {velocity.linear.x, velocity.linear.y, velocity.linear.z, velocity.inverse_mass});
-        scatter(state.velocities.data, bodies, 1, going_on & ~unusual,
+        scatter(state.velocities.data, batch.offsets, 1, going_on & ~unusual,
                 {velocity.angular.x, velocity.angular.y, velocity.angular.z, velocity.reserved});
     }
-    if (substep > 0) put_deltas(state, bodies, active & ~unusual, delta);
+    if (substep > 0) {
+        put_deltas(state, batch.offsets, active & ~unusual, delta);
+        batch.delta = delta; // of those that are done it is not asked again
+    }
+    batch.lanes &= ~unusual; // they are frozen
     return unusual;
 }
 

@@ -29,17 +29,19 @@ void tell_load(const CpuState& state, const LoadBelow& load, uint height) {
 }
 
 static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
-    for_each_part(state, 0, state.counters[k_counter_manifold_count], [&](const uint* indices, uint size) {
+    const uint lanes = lane_passes().lanes, manifold_count = state.counters[k_counter_manifold_count];
+    const auto prepare_part = [&](uint part) {
         ContactToPrepare contacts[k_most_lanes];
         uint count = 0;
-        for (uint i = 0; i < size; ++i) {
-            const uint index = indices[i], manifold = state.manifold_order[index];
+        for (uint index = part * lanes, end = min(index + lanes, manifold_count); index < end; ++index) {
+            const uint manifold = state.manifold_order[index];
             if (!is_among(manifold, launch.args[0], launch.args[1])) continue;
             const uint colour = colour_of_key(state.manifold_keys[index]);
             contacts[count++] = {index, manifold, colour, share_of_contact(state, manifold, colour)};
         }
         if (count > 0) lane_passes().prepare_contacts(state, contacts, count);
-    });
+    };
+    state.parallel((manifold_count + lanes - 1) / lanes, prepare_part, k_parallel_grain / 4 / lanes);
 }
 
 const Kernel prepare_contacts{"resolution/prepare_contacts", prepare_contacts_on_cpu};

@@ -9,14 +9,18 @@
 namespace talus::engine {
 
 std::size_t memory_bytes(const SolverBatches& batches) {
-    std::size_t bytes = 0;
+    std::size_t bytes = batches.bodies.memory_bytes();
     for (const ConstraintBatches& each : batches.of_colours)
         bytes += each.memory_bytes();
     return bytes;
 }
 
-void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
+SolverBatches& solver_batches(CpuState& state) {
     if (state.solver_batches == nullptr) state.solver_batches = std::make_shared<SolverBatches>();
+    return *state.solver_batches;
+}
+
+void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
     const uint colour = launch.args[0], substep = launch.args[2];
     const auto pass = static_cast<ContactPass>(launch.args[1]);
     const uint first = state.colour_offsets[colour];
@@ -27,7 +31,7 @@ void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
         return;
     }
     const uint grain = k_parallel_grain / 4 / lane_passes().lanes;
-    ConstraintBatches& batches = state.solver_batches->of_colours[colour];
+    ConstraintBatches& batches = solver_batches(state).of_colours[colour];
     if (pass == ContactPass::WarmStart) { // the first of a step
         std::vector<uint> indices(count);
         std::iota(indices.begin(), indices.end(), first);

@@ -43,6 +43,10 @@ void IslandWork::add_constraint(const CpuState& state, uint constraint) {
 
 void solve_together(CpuState& state, const IslandWork& islands) {
     const Parameters& p = state.parameters;
+    BodyBatches bodies;
+    bodies.assign(islands.bodies);
+    for (uint batch = 0; batch < bodies.count(); ++batch)
+        bodies.take(state, batch);
     std::array<ConstraintBatches, k_overflow_colour> colours;
     for (uint colour = 0; colour < k_overflow_colour; ++colour) {
         colours[colour].assign(islands.colours[colour]);
@@ -62,7 +66,8 @@ void solve_together(CpuState& state, const IslandWork& islands) {
     for_each_pass(
         last, p.iterations, p.relax == 1,
         [&](uint substep) {
-            pass_over_bodies(state, substep, islands.bodies.data(), static_cast<uint>(islands.bodies.size()));
+            for (uint batch = 0; batch < bodies.count(); ++batch)
+                bodies.integrate(state, substep, batch);
         },
         over_contacts);
 }

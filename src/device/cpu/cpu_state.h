@@ -42,7 +42,7 @@ struct CpuState {
     const CpuThreads* threads = nullptr;
     // What twins keep from launch to launch:
     std::shared_ptr<class SweepMemory> sweep_memory;      ///< sweep_pairs
-    std::shared_ptr<struct SolverBatches> solver_batches; ///< solve_contacts
+    std::shared_ptr<struct SolverBatches> solver_batches; ///< integrate_bodies, solve_contacts
 };
 
 } // namespace talus::engine
