@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "broad_phase/lane_sweep.h"
 #include "device/cpu/flush_denormals.h"
 #include "device/cpu/instruction_set.h"
 #include "narrow_phase/lane_queries.h"
@@ -19,30 +20,26 @@
 
 namespace talus::engine {
 
-extern const LanePasses lane_passes_base;
-extern const LaneQueries lane_queries_base;
-#ifdef TALUS_HAS_AVX2
-extern const LanePasses lane_passes_avx2;
-extern const LaneQueries lane_queries_avx2;
-#endif
+extern const LanePasses lane_passes_base, lane_passes_avx2;
+extern const LaneQueries lane_queries_base, lane_queries_avx2;
+extern const LaneSweep lane_sweep_base, lane_sweep_avx2;
 
 namespace {
 
-std::vector<const LanePasses*> all_lane_passes() {
-    std::vector<const LanePasses*> all{&lane_passes_base};
 #ifdef TALUS_HAS_AVX2
-    if (has_avx2()) all.push_back(&lane_passes_avx2);
-#endif
+/// Those that this machine can run.
+template <typename T> std::vector<const T*> runnable(const T& base, const T& avx2) {
+    std::vector<const T*> all{&base};
+    if (has_avx2()) all.push_back(&avx2);
     return all;
 }
-
-std::vector<const LaneQueries*> all_lane_queries() {
-    std::vector<const LaneQueries*> all{&lane_queries_base};
-#ifdef TALUS_HAS_AVX2
-    if (has_avx2()) all.push_back(&lane_queries_avx2);
+#define TALUS_RUNNABLE(name) runnable(name##_base, name##_avx2)
+#else
+#define TALUS_RUNNABLE(name)                                                                                           \
+    std::vector {                                                                                                      \
+        &name##_base                                                                                                   \
+    }
 #endif
-    return all;
-}
 
 /// Constraints each of two bodies of their own, or of one and a body that many share: a static one, or a hub.
 struct Items {
@@ -248,7 +245,7 @@ private:
 
 TEST(Lanes, pass_over_contacts_with_the_bits_of_one_at_a_time) {
     const FlushDenormals flush;
-    for (const LanePasses* passes : all_lane_passes()) {
+    for (const LanePasses* passes : TALUS_RUNNABLE(lane_passes)) {
         for (const bool relax : {true, false}) {
             for (const uint count : {1u, 3u, 4u, 5u, 8u, 9u, Items::k_count}) {
                 for (const float restitution : {0.0f, 0.5f}) {
@@ -281,7 +278,7 @@ TEST(Lanes, pass_over_contacts_with_the_bits_of_one_at_a_time) {
 
 TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
     const FlushDenormals flush;
-    for (const LanePasses* passes : all_lane_passes()) {
+    for (const LanePasses* passes : TALUS_RUNNABLE(lane_passes)) {
         for (const uint substep : {0u, 1u, 2u, 3u, 8u, 9u}) {
             for (const uint count : {1u, 7u, 8u, Items::k_bodies}) {
                 SCOPED_TRACE(std::to_string(passes->lanes) + " lanes, sub-step " + std::to_string(substep));
@@ -345,7 +342,7 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
     }
     std::vector<ContactConstraint> wanted;
     std::vector<uint> wanted_loads;
-    for (const LanePasses* passes : all_lane_passes()) {
+    for (const LanePasses* passes : TALUS_RUNNABLE(lane_passes)) {
         SCOPED_TRACE(std::to_string(passes->lanes) + " lanes");
         std::vector<ContactConstraint> made(Items::k_count);
         std::vector<uint> told(k_told_words * Items::k_bodies, 0);
@@ -370,6 +367,36 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
     }
 }
 
+TEST(Lanes, find_partners_as_one_at_a_time) {
+    std::mt19937 random(5);
+    const auto number = [&](float size) { return std::uniform_real_distribution<float>(-size, size)(random); };
+    constexpr uint k_boxes = 77;
+    std::vector<Aabb> boxes(k_boxes);
+    for (uint i = 0; i < k_boxes; ++i) {
+        const vec3 centre{number(3.0f), number(3.0f), number(3.0f)}, half{1.0f + number(0.9f)};
+        boxes[i] = {centre - half, 0.01f, centre + half, i % 3 == 0 ? 0u : 1u};
+        if (i % 10 == 9) boxes[i] = {vec3(3.0e38f), 0.0f, vec3(-3.0e38f), 0u}; // an empty slot
+        if (i % 10 == 8) boxes[i].lower.x = boxes[i - 1].upper.x;              // these touch
+    }
+    for (const LaneSweep* sweep : TALUS_RUNNABLE(lane_sweep)) {
+        SCOPED_TRACE(std::to_string(sweep->lanes) + " lanes");
+        const std::size_t lines = sweep->batch_bytes / sizeof(Line);
+        std::vector<Line> batches(lines * (k_boxes / sweep->lanes + 1));
+        for (uint first = 0; first < k_boxes; first += sweep->lanes)
+            sweep->take_boxes(&boxes[first], min(sweep->lanes, k_boxes - first),
+                              &batches[lines * (first / sweep->lanes)]);
+        for (uint i = 0; i < k_boxes; ++i) {
+            for (const uint end : {i, min(i + 3, k_boxes), k_boxes}) {
+                std::vector<uint> wanted, found(k_boxes);
+                for (uint k = i; k < end; ++k)
+                    if (is_candidate(boxes[i], boxes[k])) wanted.push_back(k);
+                found.resize(sweep->find_partners(boxes[i], batches.data(), i, end, found.data()));
+                EXPECT_EQ(found, wanted) << i;
+            }
+        }
+    }
+}
+
 TEST(Lanes, query_axes_with_the_bits_of_one_at_a_time) {
     const FlushDenormals flush;
     Items items(1, 0.0f);
@@ -383,7 +410,7 @@ TEST(Lanes, query_axes_with_the_bits_of_one_at_a_time) {
     }
     items.poses[7].position.y = std::numeric_limits<float>::quiet_NaN();
     const CpuState state = items.state();
-    for (const LaneQueries* queries : all_lane_queries()) {
+    for (const LaneQueries* queries : TALUS_RUNNABLE(lane_queries)) {
         for (std::size_t first = 0; first + queries->lanes <= questions.size(); first += queries->lanes) {
             AxisQuery answers[k_most_lanes];
             queries->query_axes(state, &questions[first], answers);

@@ -9,16 +9,10 @@
 namespace talus::engine {
 
 // One a file, as each is compiled for its own instructions.
-extern const LaneSweep lane_sweep_base;
-#ifdef TALUS_HAS_AVX2
-extern const LaneSweep lane_sweep_avx2;
-#endif
+extern const LaneSweep lane_sweep_base, lane_sweep_avx2;
 
 static const LaneSweep& lane_sweep() {
-#ifdef TALUS_HAS_AVX2
-    if (has_avx2()) return lane_sweep_avx2;
-#endif
-    return lane_sweep_base;
+    return TALUS_FOR_THIS_MACHINE(lane_sweep);
 }
 
 void SweepMemory::take_boxes(const CpuState& state, uint count) {

@@ -9,16 +9,10 @@
 namespace talus::engine {
 
 // One a file, as each is compiled for its own instructions.
-extern const LaneQueries lane_queries_base;
-#ifdef TALUS_HAS_AVX2
-extern const LaneQueries lane_queries_avx2;
-#endif
+extern const LaneQueries lane_queries_base, lane_queries_avx2;
 
 static const LaneQueries& lane_queries() {
-#ifdef TALUS_HAS_AVX2
-    if (has_avx2()) return lane_queries_avx2;
-#endif
-    return lane_queries_base;
+    return TALUS_FOR_THIS_MACHINE(lane_queries);
 }
 
 void query_axes(const CpuState& state, const AxisQuestion* questions, uint count, AxisQuery* answers) {

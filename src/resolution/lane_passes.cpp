@@ -8,16 +8,10 @@
 
 namespace talus::engine {
 // One a file, as each is compiled for its own instructions.
-extern const LanePasses lane_passes_base;
-#ifdef TALUS_HAS_AVX2
-extern const LanePasses lane_passes_avx2;
-#endif
+extern const LanePasses lane_passes_base, lane_passes_avx2;
 
 const LanePasses& lane_passes() {
-#ifdef TALUS_HAS_AVX2
-    if (has_avx2()) return lane_passes_avx2;
-#endif
-    return lane_passes_base;
+    return TALUS_FOR_THIS_MACHINE(lane_passes);
 }
 
 void Batches::assign(std::vector<uint> indices, std::size_t batch_bytes) {
