@@ -25,7 +25,7 @@ struct StepPlan {
     bool searches = true;       ///< the search for pairs gets launches, which it may turn out not to need
     bool makes_graph = true;    ///< the constraint graph gets launches; without them it has to be the last step's
     uint pair_capacity = 0;     ///< room in the buffers that have a record a pair
-    uint near_pairs = 1u << 20; ///< whose records lie close enough together to be gone through in any order
+    uint near_pairs = 1u << 20; ///< whose records are quick to reach in any order, as they lie close together
     uint table_size = 0;        ///< slots of PairTable
     uint colour_capacity = 0;   ///< colours that get launches
     bool overflow = false;      ///< the overflow set gets launches

@@ -249,16 +249,16 @@ std::vector<BodyDefinition> hub_that_stands() {
 class Graphs : public OnDevice {};
 
 TEST_P(Graphs, that_last_give_the_bits_of_new_ones) {
-    struct Case {
+    struct Standing {
         const char* name;
         std::vector<BodyDefinition> bodies;
         Settings settings;
     };
     Settings few_substeps; // renderers in software end long loops
     few_substeps.substeps = few_substeps.max_substeps = 2;
-    const Case cases[] = {{"a small world", bodies_that_stand(false), {}},
-                          {"a large world", bodies_that_stand(true), few_substeps},
-                          {"a hub", hub_that_stands(), with_hubs()}};
+    const Standing cases[] = {{"a small world", bodies_that_stand(false), {}},
+                              {"a large world", bodies_that_stand(true), few_substeps},
+                              {"a hub", hub_that_stands(), with_hubs()}};
     for (const auto& [name, bodies, settings] : cases) {
         SCOPED_TRACE(name);
         World lasting = make_world(settings), in_one_go = make_world(settings), made_anew = make_world(settings);
@@ -285,8 +285,9 @@ TEST_P(Graphs, that_last_give_the_bits_of_new_ones) {
                 << "step " << i;
         }
         EXPECT_EQ(lasting.report().growths, made_anew.report().growths);
-        if (GetParam() != DeviceKind::Hybrid) // a graph takes six launches at least
+        if (GetParam() != DeviceKind::Hybrid) { // a graph takes six launches at least
             EXPECT_LE(lasting.report().dispatches + 5, made_anew.report().dispatches);
+        }
 
         in_one_go.step(60); // steps are on their way when one of them turns out to have to make its graph
         in_one_go.set_velocity(ids[5], {{0.5f, 0.0f, 0.0f}, {}});
