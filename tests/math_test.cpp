@@ -396,23 +396,27 @@ RC_GTEST_PROP(Math, ranks_of_any_two_edges_at_a_body_differ, (uint body, uint b,
     body %= k_slots, b %= k_slots, c %= k_slots;
     RC_PRE(body != b && body != c && b != c);
     RC_ASSERT(edge_rank(body, b, with_b) != edge_rank(body, c, with_c));
-    if (with_b && !with_c) RC_ASSERT(edge_rank(body, b, with_b) > edge_rank(body, c, with_c));
+    if (with_b && !with_c) RC_ASSERT(edge_rank(body, b, with_b) < edge_rank(body, c, with_c));
 }
 
-RC_GTEST_PROP(Math, the_first_free_colour_is_free_and_the_lowest, (uint low, uint high, uint usable)) {
-    usable %= k_max_colours + 1;
+RC_GTEST_PROP(Math, the_first_free_colour_is_free_and_the_last, (uint low, uint high, uint usable, bool both_movable)) {
+    usable %= k_first_hub_colour + 1;
     const std::uint64_t used = std::uint64_t{high} << 32 | low;
-    const uint colour = first_free_colour(low, high, usable);
-    RC_ASSERT(colour < usable || colour == k_overflow_colour);
-    if (colour < k_max_colours) RC_ASSERT((used >> colour & 1) == 0);
-    for (uint lower = 0; lower < min(colour, usable); ++lower)
-        RC_ASSERT((used >> lower & 1) == 1);
+    const uint colour = first_free_colour(low, high, usable, both_movable);
+    const uint last = both_movable ? k_ground_colour - 1 : k_ground_colour, least = k_first_hub_colour - usable;
+    if (colour != k_overflow_colour) {
+        RC_ASSERT(colour >= least && colour <= last);
+        RC_ASSERT((used >> colour & 1) == 0);
+    }
+    for (uint other = colour != k_overflow_colour ? colour + 1 : least; other <= last; ++other)
+        RC_ASSERT((used >> other & 1) == 1);
 }
 
 TEST(Math, when_all_colours_are_used_there_is_the_overflow_set) {
-    EXPECT_EQ(first_free_colour(UINT32_MAX, UINT32_MAX, k_max_colours), k_overflow_colour);
-    EXPECT_EQ(first_free_colour(UINT32_MAX, 0x7fffffffu, k_max_colours), 63u);
-    EXPECT_EQ(first_free_colour(0, 0, 0), k_overflow_colour);
+    EXPECT_EQ(first_free_colour(UINT32_MAX, UINT32_MAX, k_first_hub_colour, false), k_overflow_colour);
+    EXPECT_EQ(first_free_colour(UINT32_MAX - 1, UINT32_MAX, k_first_hub_colour, false), 0u);
+    EXPECT_EQ(first_free_colour(0, 0, 0, false), k_overflow_colour);
+    EXPECT_EQ(first_free_colour(0, 0, 1, true), k_overflow_colour) << "the first is not for two that can be pushed";
 }
 
 TEST(Math, launches_cover_their_items_within_the_limits_of_a_dimension) {

@@ -81,7 +81,7 @@ Edge load_edge(uint pair)
         edge.part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), edge.hub);
         usable = colours_of_hubs_edge(manifold, edge.part, edge.hub, both_movable);
     }
-    edge.colour = first_free_colour(low, high, usable);
+    edge.colour = first_free_colour(low, high, usable, both_movable);
     edge.is_shared = edge.hub != k_none && edge.colour == k_overflow_colour;
     if (edge.is_shared) edge.colour = first_free_hub_colour(high_of_other);
     for (uint end = 0u; end < 2u; ++end)
@@ -177,7 +177,7 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
     }
     if (!edge.is_shared) {
         count_unshared(edge);
-        atomicMax(counters[k_counter_colour_demand], edge.colour + 1u);
+        atomicMax(counters[k_counter_colour_demand], colours_down_to(edge.colour));
     }
     manifold_keys[pair] = edge.colour;
     uncoloured[entry] = k_none;

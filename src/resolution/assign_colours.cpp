@@ -62,14 +62,14 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
     for (const Edge& edge : edges) {
         const Manifold& manifold = state.manifolds[edge.pair];
         const std::array bodies{manifold.body_a, manifold.body_b};
+        const bool both_movable = std::ranges::all_of(bodies, movable);
         const auto hub_count = hub_count_of(manifold);
         const uint hub = hub_of(manifold),
                    part = hub_count == 1
                               ? part_of_load(state, edge.pair, uintBitsToFloat(state.manifold_keys[edge.pair]), hub)
                               : 0;
         uint usable = hub_count == 0 ? state.parameters.usable_colours : 0;
-        if (hub_count == 1)
-            usable = colours_of_hubs_edge(state, manifold, part, hub, std::ranges::all_of(bodies, movable));
+        if (hub_count == 1) usable = colours_of_hubs_edge(state, manifold, part, hub, both_movable);
         uint low = 0, high = 0, high_of_other = 0;
         for (const uint body : bodies) {
             if (!movable(body)) continue;
@@ -77,7 +77,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
             high |= word_of(body, k_used_high);
             if (!of_hub(body)) high_of_other = word_of(body, k_used_high);
         }
-        uint colour = first_free_colour(low, high, usable);
+        uint colour = first_free_colour(low, high, usable, both_movable);
         if (hub_count == 1 && colour == k_overflow_colour) colour = first_free_hub_colour(high_of_other);
         const bool is_shared = is_hub_colour(colour);
         state.manifold_keys[edge.pair] = colour;
@@ -91,7 +91,8 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         if (colour == k_overflow_colour)
             ++state.counters[k_counter_overflow_count];
         else if (colour < k_first_hub_colour)
-            state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
+            state.counters[k_counter_colour_demand] =
+                max(state.counters[k_counter_colour_demand], colours_down_to(colour));
         else
             ++state.counters[k_counter_hub_manifolds];
     }

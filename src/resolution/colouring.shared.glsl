@@ -4,14 +4,17 @@
 // uncoloured edges at both its bodies.
 //
 // The rank of an edge is a one-to-one mix of a XOR b. At a body all edges lead to different other bodies, so all ranks
-// there differ: no ties, though ranks of edges far apart may be equal. Edges to bodies that cannot be pushed come last:
-// what is solved last holds, and a light box under a heavy one must not be pressed into the floor. The result is that
-// of a greedy colouring in the order of ranks, whatever the order in which edges are listed or threads run.
+// there differ: no ties, though ranks of edges far apart may be equal. The result is that of a greedy colouring in the
+// order of ranks, whatever the order in which edges are listed or threads run.
+//
+// Colours are solved in ascending order, and given from the last one down. What is solved last holds, and a light box under a
+// heavy one must not be pressed into the floor: so the last colour is for edges to bodies that cannot be pushed, and these
+// come before all others. solver.md, Heavy on light.
 
 const uint k_rank_mask = 0x3fffffffu; // slots are below 2^30
 // Of 1,500 numbers the one with the fewest colours over eight scenes of walls, pyramids and columns: 8 instead of 9.
 const uint k_rank_start = 0x1db40204u;
-const uint k_both_movable = 0x80000000u;
+const uint k_on_ground = 0x80000000u; // one of the bodies cannot be pushed
 
 // Of two different bodies, in either order. Not 0.
 inline uint edge_rank(uint body_a, uint body_b, bool both_movable)
@@ -22,17 +25,23 @@ inline uint edge_rank(uint body_a, uint body_b, bool both_movable)
     x ^= x >> 14;
     x = (x * 0x297a2d39u) & k_rank_mask;
     x ^= x >> 15;
-    return 2u * x + 1u + (both_movable ? k_both_movable : 0u);
+    return 2u * x + 1u + (both_movable ? 0u : k_on_ground);
 }
 
-// The lowest of the first `usable` colours that is free in both sets of used colours (64 bits in two words), or the
-// overflow set.
-inline uint first_free_colour(uint used_low, uint used_high, uint usable)
+// How many have been given where this is the last one.
+inline uint colours_down_to(uint colour) { return k_first_hub_colour - colour; }
+
+const uint k_not_for_movables = ~0u << (k_ground_colour - 32u); // of the colours from 32 on: a bit each
+const uint k_for_hubs = ~0u << (k_first_hub_colour - 32u);
+
+// The first of `usable` colours that is free in both sets of used colours (64 bits in two words), or the overflow set.
+inline uint first_free_colour(uint used_low, uint used_high, uint usable, bool both_movable)
 {
-    uint colour = k_overflow_colour;
-    if (used_high != 0xffffffffu) colour = 32u + uint(findLSB(~used_high));
-    if (used_low != 0xffffffffu) colour = uint(findLSB(~used_low));
-    return colour < usable ? colour : k_overflow_colour;
+    uint free_low = ~used_low;
+    uint free_high = ~(used_high | (both_movable ? k_not_for_movables : k_for_hubs));
+    if ((free_low | free_high) == 0u) return k_overflow_colour;
+    uint colour = free_high != 0u ? 32u + uint(findMSB(free_high)) : uint(findMSB(free_low));
+    return colours_down_to(colour) <= usable ? colour : k_overflow_colour;
 }
 
 // The same for a manifold of a hub: at its other body.
@@ -107,7 +116,7 @@ inline uint colours_below_hubs(bool carries, bool both_movable, uint last_colour
 inline bool keeps_colour(uint colour, uint usable, bool both_movable, Parameters p)
 {
     if (colour == k_no_colour) return false;
-    if ((colour & k_whole_hub) != 0u) return (colour & ~k_whole_hub) < usable;
+    if ((colour & k_whole_hub) != 0u) return colours_down_to(colour & ~k_whole_hub) <= usable;
     return usable <= (both_movable ? 0u : min(p.usable_colours, k_colours_for_first));
 }
 

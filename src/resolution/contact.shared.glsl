@@ -112,6 +112,14 @@ inline SpatialVector relative_velocity(VelocityPair v, Meeting m, Slip slip)
     return relative;
 }
 
+// What a contact is as heavy as (heaviness): the load speed of the last step, or what the impulses of this one have done so
+// far. Light bodies between a heavy one and the ground may stop it and throw it back within one step.
+inline float load_speed_so_far(float load_speed, ManifoldRows rows, ManifoldImpulses impulses)
+{
+    precise float so_far = sum4(impulses.total) * rows.meeting.inverse_masses;
+    return max(load_speed, so_far);
+}
+
 // ---- what the rows of a pass aim at ----
 //
 // All of it is known before the bodies' velocities are, which matters where a pass waits for the one before.
@@ -285,22 +293,26 @@ inline vec4 faster_than(vec4 velocity, float speed)
                 max(velocity.w - speed, 0.0f));
 }
 
-// The impulses of light bodies that stop a heavy one grow from sub-step to sub-step as those of a spring do, and fall as
-// slowly: they would throw it back as fast as it came. So where it leaves faster than it is pushed they fall as many
-// times faster as it is heavier. solver.md, Heavy on light.
-inline NormalTarget let_go_of_thrown(NormalTarget target, vec4 velocity)
-{
-    if (!any_lane(target.let_go > 0.0f)) return target;
-    vec4 thrown = faster_than(velocity, target.push_speed);
-    precise vec4 less = target.offset - thrown * target.mass * target.let_go;
-    target.offset = choose(target.let_go > 0.0f, less, target.offset);
-    return target;
-}
-
 struct NormalSweep {
     vec4 velocity; // J V, but for what each row's own impulse has changed last
     vec4 impulse;
 };
+
+// The impulses of light bodies that stop a heavy one grow from sub-step to sub-step as those of a spring do, and fall as
+// slowly: they would throw it back as fast as it came. So where it leaves faster than it is pushed they fall as many
+// times faster as it is heavier. In a pass no more than a part of an impulse goes: a light body between two others would be
+// shot out where one of them lets go of all and the other of little. solver.md, Heavy on light.
+const float k_most_let_go = 0.125f;
+
+inline NormalTarget let_go_of_thrown(NormalTarget target, NormalSweep sweep)
+{
+    if (!any_lane(target.let_go > 0.0f)) return target;
+    vec4 thrown = faster_than(sweep.velocity, target.push_speed);
+    precise vec4 wanted = thrown * target.mass * target.let_go;
+    precise vec4 less = target.offset - min4(wanted, sweep.impulse * k_most_let_go);
+    target.offset = choose(target.let_go > 0.0f, less, target.offset);
+    return target;
+}
 
 // The normal rows one after the other (equation 3.14, accumulated and clamped), each with what the ones before have
 // done to its velocity.
@@ -409,7 +421,7 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
     sweep.velocity = normal_velocities(after_friction(velocity, rows, friction_change), rows);
     sweep.impulse = old.normal;
     s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.normal.hit_speed, sum4(sweep.impulse));
-    vec4 normal = solve_normals(sweep, rows, let_go_of_thrown(target.normal, sweep.velocity)).impulse;
+    vec4 normal = solve_normals(sweep, rows, let_go_of_thrown(target.normal, sweep)).impulse;
     precise vec4 normal_change = normal - old.normal;
     precise vec4 total = old.total + (normal - old.normal * target.old_share);
 

@@ -72,7 +72,8 @@ PassTarget target_of_pass(uint pass)
 {
     BodyDelta delta_a = load_delta(body_a);
     BodyDelta delta_b = load_delta(body_b);
-    Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
+    float present_load_speed = load_speed_so_far(load_speed, rows, impulses);
+    Substep substep = make_substep(substeps, is_against_static(traits), present_load_speed, parameters);
     bool moves = pass != k_relax && is_against_static(traits);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);

@@ -32,7 +32,8 @@ for_each_pass(uint last, uint iterations, bool relax, const Integrate& integrate
 inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const ContactConstraint& c,
                                  const ManifoldRows& rows, const ManifoldImpulses& impulses) {
     const Parameters& p = state.parameters;
-    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), c.load_speed, p);
+    const float load_speed = load_speed_so_far(c.load_speed, rows, impulses);
+    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), load_speed, p);
     const bool moves = pass != ContactPass::Relax && is_against_static(c.traits);
     PassTarget target{};
     target.friction = make_friction_target(rows, impulses.normal);

@@ -50,7 +50,7 @@ void main()
         if (colour < parameters.usable_colours) {
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
-            atomicMax(counters[k_counter_colour_demand], colour + 1u);
+            atomicMax(counters[k_counter_colour_demand], colours_down_to(colour));
         } else {
             colour = floatBitsToUint(load_on(pair, manifold.point_count));
             uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair;

@@ -27,7 +27,8 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
             if (colour < state.parameters.usable_colours) {
                 use_colour(manifold.body_a, colour);
                 use_colour(manifold.body_b, colour);
-                state.counters[k_counter_colour_demand] = max(state.counters[k_counter_colour_demand], colour + 1);
+                uint& demand = state.counters[k_counter_colour_demand];
+                demand = max(demand, colours_down_to(colour));
             } else {
                 colour = floatBitsToUint(load_on(state, pair));
                 state.uncoloured[state.counters[k_counter_uncoloured]++] = pair;

@@ -6,6 +6,7 @@
 // of what sleeps.
 // Needs: a barrier after group_islands.
 // Overflow: none.
+#include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -37,6 +38,6 @@ void main()
     uint group = group_number(island_groups[body]);
     manifold_keys[pair] = manifold_key(group, colour);
     if (group != k_launched) return;
-    if (colour < k_first_hub_colour) atomicMax(counters[k_counter_launched_colours], colour + 1u);
+    if (colour < k_first_hub_colour) atomicMax(counters[k_counter_launched_colours], colours_down_to(colour));
     if (colour == k_overflow_colour) atomicAdd(counters[k_counter_launched_overflow], 1u);
 }

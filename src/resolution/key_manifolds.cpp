@@ -26,7 +26,7 @@ static void key_manifolds_on_cpu(CpuState& state, const Launch&) {
         key = manifold_key(group, colour);
         if (group != k_launched) continue;
         uint& colours = state.counters[k_counter_launched_colours];
-        if (colour < k_first_hub_colour) colours = max(colours, colour + 1);
+        if (colour < k_first_hub_colour) colours = max(colours, colours_down_to(colour));
         if (colour == k_overflow_colour) ++state.counters[k_counter_launched_overflow];
     }
 }

@@ -279,14 +279,18 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ConstraintBatch& c,
                                      const BodyDelta& delta_b, const Parameters& p) {
     const bool relax = pass == ContactPass::Relax;
     PassTarget target;
+    const Lanes load_speed = load_speed_so_far(c.load_speed, rows, impulses);
+    const bool is_heavier = any_lane(heaviness(load_speed) > heaviness(c.load_speed));
+    const Substep substep =
+        is_heavier ? make_substep(c.substeps, is_against_static(c.traits), load_speed, p) : c.substep;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
     target.moved_since = relax;
     target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
     target.half_h = relax ? Lanes(0.0f) : c.half_h;
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
-                                       impulses.normal, !relax, c.substep, p);
-    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, c.substep);
+                                       impulses.normal, !relax, substep, p);
+    if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
     return target;
 }
 

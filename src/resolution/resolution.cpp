@@ -78,7 +78,7 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
     const auto launch = [&](const Kernel& kernel, uint colour, uint slot) {
         device.run({.kernel = kernel, .slot = slot, .args = {colour, static_cast<uint>(pass), substep}});
     };
-    for (uint colour = 0; colour < plan.colour_capacity; ++colour)
+    for (uint colour = k_first_hub_colour - plan.colour_capacity; colour < k_first_hub_colour; ++colour)
         launch(solve_contacts, colour, k_dispatch_colours + colour);
     for (uint colour = k_first_hub_colour; plan.hub_capacity > 0 && colour < k_max_colours; ++colour) {
         launch(solve_hub_contacts, colour, k_dispatch_colours + colour);

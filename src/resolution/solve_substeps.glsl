@@ -15,7 +15,7 @@
 
 uint end_index;     // of the manifolds with a colour; the overflow set follows
 uint own_end;       // of those that the worker may have: the overflow set is the first one's
-uint colours_end;   // of the colours in use, but for those of hubs
+uint first_colour;  // in use
 uint first_index;   // the worker's first manifold; k_none: it has none
 uint index_in_hand; // k_none: none
 
@@ -31,9 +31,9 @@ void find_own_manifolds()
 {
     end_index = colour_offsets[k_overflow_colour];
     own_end = worker() == 0u ? colour_offsets[k_overflow_colour + 1u] : end_index;
-    colours_end = 0u;
-    while (colour_offsets[colours_end] < colour_offsets[k_first_hub_colour])
-        ++colours_end;
+    first_colour = k_first_hub_colour;
+    while (colour_offsets[first_colour] > colour_offsets[0])
+        --first_colour;
     first_index = if_own(min(colour_offsets[0] + worker(), end_index));
     index_in_hand = k_none;
 }
@@ -69,9 +69,8 @@ void pass_over_contacts(uint pass, uint substep)
     PassTarget target;
     uint begin = colour_offsets[0];
     uint all_end = colour_offsets[k_overflow_colour + 1u];
-    for (uint colour = 0u; begin < all_end; colour = colour == colours_end ? k_first_hub_colour + 1u : colour + 1u) {
-        // Before the first colour there are none to pass over: all make ready.
-        uint end = colour == 0u ? begin : colour_offsets[colour];
+    for (uint colour = first_colour; begin < all_end; ++colour) {
+        uint end = colour_offsets[colour]; // before the first colour there are none to pass over: all make ready
         if (begin < end) wait_for_finish();
         while (!is_ready || index < end) {
             if (is_ready) {

@@ -48,6 +48,7 @@ const uint k_combine_multiply = 3u;
 // The constraint graph: colours 0 to k_max_colours - 1, the last of them for contacts of hubs; then the overflow set, then
 // pairs that do not touch.
 const uint k_max_colours = 64u;
+const uint k_ground_colour = 61u; // for contacts with bodies that cannot be pushed
 const uint k_first_hub_colour = 62u;
 const uint k_overflow_colour = 64u;
 const uint k_inactive_colour = 127u;

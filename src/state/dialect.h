@@ -44,6 +44,10 @@ inline uint max(uint a, uint b) {
 inline int findLSB(uint x) {
     return x != 0 ? std::countr_zero(x) : -1;
 }
+/// Place of the highest bit that is set; -1 for 0.
+inline int findMSB(uint x) {
+    return 31 - std::countl_zero(x);
+}
 inline int bitCount(uint x) {
     return std::popcount(x);
 }
