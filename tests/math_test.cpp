@@ -401,14 +401,15 @@ RC_GTEST_PROP(Math, ranks_of_any_two_edges_at_a_body_differ, (uint body, uint b,
 
 RC_GTEST_PROP(Math, the_first_free_colour_is_free_and_the_last, (uint low, uint high, uint usable, bool both_movable)) {
     usable %= k_first_hub_colour + 1;
-    const std::uint64_t used = std::uint64_t{high} << 32 | low;
-    const uint colour = first_free_colour(low, high, usable, both_movable);
-    const uint last = both_movable ? k_ground_colour - 1 : k_ground_colour, least = k_first_hub_colour - usable;
+    std::uint64_t used = std::uint64_t{high} << 32 | low;
+    const uint colour = first_free_colour(low, high, usable, both_movable), least = k_first_hub_colour - usable;
+    const bool two_more = (used >> (k_ground_colour - 2) & 3) == 3;
+    if (both_movable && !two_more) used |= std::uint64_t{1} << k_ground_colour;
     if (colour != k_overflow_colour) {
-        RC_ASSERT(colour >= least && colour <= last);
+        RC_ASSERT(colour >= least && colour <= k_ground_colour);
         RC_ASSERT((used >> colour & 1) == 0);
     }
-    for (uint other = colour != k_overflow_colour ? colour + 1 : least; other <= last; ++other)
+    for (uint other = colour != k_overflow_colour ? colour + 1 : least; other <= k_ground_colour; ++other)
         RC_ASSERT((used >> other & 1) == 1);
 }
 

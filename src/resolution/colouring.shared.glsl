@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colouring of the constraint graph: manifolds are edges between bodies, and no two edges of one colour may meet at a
-// body that can move. Jones and Plassmann's scheme (1993): an edge takes the smallest free colour once it outranks all
+// body that can move. Jones and Plassmann's scheme (1993): an edge takes the first free colour once it outranks all
 // uncoloured edges at both its bodies.
 //
 // The rank of an edge is a one-to-one mix of a XOR b. At a body all edges lead to different other bodies, so all ranks
@@ -8,8 +8,8 @@
 // order of ranks, whatever the order in which edges are listed or threads run.
 //
 // Colours are solved in ascending order, and given from the last one down. What is solved last holds, and a light box under a
-// heavy one must not be pressed into the floor: so the last colour is for edges to bodies that cannot be pushed, and these
-// come before all others. solver.md, Heavy on light.
+// heavy one must not be pressed into the floor: so edges to bodies that cannot be pushed come first and get the last colour,
+// and others get it where they are many and it is free. solver.md, Heavy on light.
 
 const uint k_rank_mask = 0x3fffffffu; // slots are below 2^30
 // Of 1,500 numbers the one with the fewest colours over eight scenes of walls, pyramids and columns: 8 instead of 9.
@@ -31,14 +31,17 @@ inline uint edge_rank(uint body_a, uint body_b, bool both_movable)
 // How many have been given where this is the last one.
 inline uint colours_down_to(uint colour) { return k_first_hub_colour - colour; }
 
-const uint k_not_for_movables = ~0u << (k_ground_colour - 32u); // of the colours from 32 on: a bit each
+// Of the colours from 32 on: a bit each.
 const uint k_for_hubs = ~0u << (k_first_hub_colour - 32u);
+const uint k_for_ground = 1u << (k_ground_colour - 32u);
+const uint k_next_two = 3u << (k_ground_colour - 34u);
 
 // The first of `usable` colours that is free in both sets of used colours (64 bits in two words), or the overflow set.
 inline uint first_free_colour(uint used_low, uint used_high, uint usable, bool both_movable)
 {
     uint free_low = ~used_low;
-    uint free_high = ~(used_high | (both_movable ? k_not_for_movables : k_for_hubs));
+    bool leaves_last = both_movable && (used_high & k_next_two) != k_next_two;
+    uint free_high = ~(used_high | k_for_hubs | (leaves_last ? k_for_ground : 0u));
     if ((free_low | free_high) == 0u) return k_overflow_colour;
     uint colour = free_high != 0u ? 32u + uint(findMSB(free_high)) : uint(findMSB(free_low));
     return colours_down_to(colour) <= usable ? colour : k_overflow_colour;
