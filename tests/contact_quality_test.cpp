@@ -81,6 +81,19 @@ TEST_P(LongContactQuality, a_stack_of_turned_boxes_at_rest_is_still) {
     expect_stillness(world);
 }
 
+/// A light box between a heavy one and the ground is pushed by both in turns, and must not go round.
+TEST_P(LongContactQuality, a_box_that_has_fallen_on_a_lighter_one_comes_to_rest) {
+    World world = make_world();
+    world.add(ground());
+    float x = 0.0f;
+    for (const float ratio : {3.0f, 10.0f, 100.0f}) {
+        world.add(box_at({x, 0.5f, 0.0f}));
+        world.add(weighing(box_at({x + 0.05f, 1.6f, 0.03f}), 1000.0f * ratio));
+        x += 3.0f;
+    }
+    expect_stillness(world, 20);
+}
+
 TEST_P(LongContactQuality, a_wall_at_rest_is_still) {
     // Where all bricks are solved in the same order, and with one sweep over a manifold's points, it sways.
     World world = make_world();

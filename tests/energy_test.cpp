@@ -254,6 +254,66 @@ TEST(EnergyOfHeavyBodies, is_lost_when_light_ones_stop_them) {
     EXPECT_LT(fastest_up, 0.15f * impact);
 }
 
+/// Islands join as the boxes meet, and get more sub-steps: contacts become stiffer while they are pressed together.
+TEST(EnergyOfHeavyBodies, is_not_gained_by_columns_of_unlike_boxes_that_fall_together) {
+    int scene = 0;
+    for (const std::vector<float>& masses :
+         {std::vector<float>{1000.0f, 100.0f, 1.0f}, {1.0f, 100.0f, 1000.0f}, {1000.0f, 1.0f}, {100.0f, 1.0f, 10.0f}}) {
+        for (const int height : {3, 5, 8, 12}) {
+            for (const float gap : {0.03f, 0.1f, 0.3f}) {
+                for (const float top : {1e3f, 10e3f, 100e3f}) {
+                    if (scene++ % k_one_in != 0) continue;
+                    SCOPED_TRACE(testing::Message() << height << " boxes of " << masses[0] << ", " << masses[1]
+                                                    << ".. kg, " << gap << " m apart, under " << top << " kg");
+                    const auto bodies = [&] {
+                        std::vector<BodyDefinition> all{ground()};
+                        for (int i = 0; i < height; ++i) {
+                            const float y = gap + 0.5f + (1.0f + gap) * static_cast<float>(i);
+                            all.push_back(
+                                weighing(box_at({0.0f, y, 0.0f}), masses[static_cast<std::size_t>(i) % masses.size()]));
+                        }
+                        const float y = 1.0f + gap + (1.0f + gap) * static_cast<float>(height);
+                        all.push_back(weighing(box_at({0.1f, y, 0.0f}, {2.0f, 2.0f, 2.0f}), top));
+                        return all;
+                    };
+                    World world({}, options_on(DeviceKind::Cpu));
+                    expect_no_gain(world, {"column", true, 240, bodies}, 1);
+                }
+            }
+        }
+    }
+}
+
+/// What a plate squeezes out from under it must not throw it up.
+TEST(EnergyOfHeavyBodies, is_not_gained_by_a_plate_that_falls_on_pebbles) {
+    int scene = 0;
+    for (const bool round : {false, true}) {
+        for (const int side : {3, 5}) {
+            for (const float mass : {300.0f, 1500.0f, 6000.0f}) {
+                for (const float drop : {0.0f, 0.1f, 1.0f}) {
+                    if (scene++ % k_one_in != 0) continue;
+                    SCOPED_TRACE(testing::Message() << mass << " kg from " << drop << " m on " << side << " by " << side
+                                                    << (round ? " spheres" : " boxes"));
+                    const auto bodies = [&] {
+                        std::vector<BodyDefinition> all{ground()};
+                        for (int i = 0; i < side * side; ++i) {
+                            const Vec3 place{0.5f * static_cast<float>(i % side - side / 2), 0.05f,
+                                             0.5f * static_cast<float>(i / side - side / 2)};
+                            all.push_back(
+                                weighing(round ? sphere_at(place, 0.05f) : box_at(place, {0.1f, 0.1f, 0.1f}), 1.0f));
+                        }
+                        const float width = 0.5f * static_cast<float>(side);
+                        all.push_back(weighing(box_at({0.1f, 0.2f + drop, 0.0f}, {width, 0.2f, width}), mass));
+                        return all;
+                    };
+                    World world({}, options_on(DeviceKind::Cpu));
+                    expect_no_gain(world, {"plate", true, 300, bodies}, 1);
+                }
+            }
+        }
+    }
+}
+
 TEST(EnergyOfHeavyBodies, is_not_gained_by_a_tilted_table_that_falls) {
     int scene = 0;
     for (const float angle : {0.1f, 0.3f, 0.6f}) {

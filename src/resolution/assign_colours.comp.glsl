@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its bodies takes the
-// smallest colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count as bodies for most
+// first colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count as bodies for most
 // of their manifolds, and the loads on them. As many groups as have manifolds wait for each other after each part of a
 // round; it is one where little is new.
 // args.x: 1 to count how many groups can run at a time instead.

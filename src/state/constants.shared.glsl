@@ -128,9 +128,10 @@ const uint k_arrival_words = 3u; // of Arrivals, see primitives/grid_barrier.gls
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
 const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island
 // In a larger world a work group solves several islands: those that begin within a window of so many bodies, in the order
-// of islands. It has room for them, and for the rest of the last one.
-const uint k_group_window = 48u;
-const uint k_most_grouped = 208u; // bodies of an island that a group can solve
+// of islands. It has room for them, and for the rest of the last one. Stacks have a manifold a body, and of 2, 3, 4, 5, 6 or
+// 10 bodies they fill the window: one manifold for each of 60 of the group's 64 invocations.
+const uint k_group_window = 60u;
+const uint k_most_grouped = 196u; // bodies of an island that a group can solve
 const uint k_group_room = k_group_window + k_most_grouped; // bodies
 const uint k_most_single = k_island_bodies; // bodies of an island that has a group of its own
 
