@@ -164,7 +164,7 @@ inline vec4 closing_speeds(vec4 separation, float inv_h)
 const float k_never = 1.0e30f; // m/s, or s
 
 // A point of bodies that bounce is hit when it closes faster than this: so that it touches within the sub-step. What
-// overlaps by more than half of that has been there for longer, and is pushed apart.
+// overlaps by more than twice its way in the sub-step has been there for longer, and is pushed apart.
 inline float hit_speed(float separation, float normal_mass, float restitution, float inv_h, Parameters p)
 {
     float closing = max(closing_speed(separation, inv_h), closing_speed(-0.5f * separation, inv_h));
