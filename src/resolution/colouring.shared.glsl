@@ -7,9 +7,9 @@
 // there differ: no ties, though ranks of edges far apart may be equal. The result is that of a greedy colouring in the
 // order of ranks, whatever the order in which edges are listed or threads run.
 //
-// Colours are solved in ascending order, and given from the last one down. What is solved last holds, and a light box under a
-// heavy one must not be pressed into the floor: so edges to bodies that cannot be pushed come first and get the last colour,
-// and others get it where they are many and it is free. solver.md, Heavy on light.
+// Colours are solved in ascending order, and given from the last one down. What is solved last holds, and a light box
+// under a heavy one must not be pressed into the floor: so edges to bodies that cannot be pushed come first and get the
+// last colour, and others get it where they are many and it is free. solver.md, The ground last.
 
 const uint k_rank_mask = 0x3fffffffu; // slots are below 2^30
 // Of 1,500 numbers the one with the fewest colours over eight scenes of walls, pyramids and columns: 8 instead of 9.
