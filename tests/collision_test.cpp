@@ -373,6 +373,27 @@ TEST(BoxBox, a_box_on_a_larger_one_touches_at_its_four_corners) {
     EXPECT_EQ(corners.size(), 4u);
 }
 
+/// The normal of two edges separates them most, as B reaches over A's edge, but a single point would jump from one side
+/// to the other as B rocks.
+TEST(BoxBox, an_edge_that_lies_on_a_face_touches_it_at_both_ends) {
+    for (const float tilt : {-0.014f, 0.014f}) {
+        Sample sample;
+        sample.shape_a = {vec3(0.5f, 0.5f, 0.5f), k_shape_box};
+        sample.shape_b = {vec3(0.8f, 0.3f, 0.3f), k_shape_box};
+        const glm::dquat on_edge = glm::angleAxis(0.25 * std::numbers::pi, dvec3(1, 0, 0));
+        const glm::dquat q = glm::angleAxis(static_cast<double>(tilt), dvec3(0, 0, 1)) * on_edge;
+        sample.pose_a.rotation = vec4(0, 0, 0, 1);
+        sample.pose_b.rotation = vec4(glm::vec4(q.x, q.y, q.z, q.w));
+        sample.pose_b.position = vec3(0.0f, 0.5f + 0.3f * std::sqrt(2.0f) - 0.02f, 0.0f);
+        ASSERT_GE(query_axes(sample.pair(), k_axis_none).axis, 6u) << "edges win";
+        const ContactGeometry g = sample.collide();
+        ASSERT_EQ(g.count, 2u);
+        EXPECT_EQ(g.axis, 1u);
+        EXPECT_NEAR(std::abs(g.points[0].x - g.points[1].x), 1.0f, 1e-3f);
+        EXPECT_NEAR(g.separations[0] + g.separations[1], -0.04f, 1e-3f);
+    }
+}
+
 TEST(BoxBox, crossed_edges_touch_at_one_point) {
     constexpr float quarter = std::numbers::pi_v<float> / 4.0f, root = std::numbers::sqrt2_v<float>;
     Sample sample =

@@ -94,6 +94,23 @@ TEST_P(LongContactQuality, a_box_that_has_fallen_on_a_lighter_one_comes_to_rest)
     expect_stillness(world, 20);
 }
 
+/// The contacts with those beside it are there before the one with the ground, which must be solved after them all the
+/// same.
+TEST_P(LongContactQuality, a_light_box_that_falls_among_others_under_a_heavy_one_comes_to_rest) {
+    World world = make_world();
+    world.add(ground());
+    float x = 0.0f;
+    for (const float ratio : {10.0f, 100.0f}) {
+        constexpr float height = 0.6f;
+        world.add(box_at({x, height, 0.0f}));
+        for (const auto& [dx, dz] : {std::pair{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}})
+            world.add(box_at({x + dx, height, dz}));
+        world.add(weighing(box_at({x + 0.05f, height + 1.0f, 0.03f}), 1000.0f * ratio));
+        x += 6.0f;
+    }
+    expect_stillness(world, 20);
+}
+
 TEST_P(LongContactQuality, a_wall_at_rest_is_still) {
     // Where all bricks are solved in the same order, and with one sweep over a manifold's points, it sways.
     World world = make_world();

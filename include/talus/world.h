@@ -20,7 +20,7 @@ struct StepReport {
                                           ///< when they were last searched
     std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors
     std::uint32_t contacts = 0;           ///< contact points
-    std::uint32_t colours = 0;            ///< batches of the constraint graph
+    std::uint32_t colours = 0;            ///< batches of the constraint graph, from the ground's on, which may be empty
     std::uint32_t substeps = 0;           ///< most that an island had, or will have when it wakes
     std::uint32_t overflow_manifolds = 0; ///< without a colour, solved one at a time
     std::uint32_t hubs = 0;            ///< bodies with so many contacts that most are solved with a share of their mass

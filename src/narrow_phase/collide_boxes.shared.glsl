@@ -246,6 +246,29 @@ inline ContactGeometry face_contact(BoxPair p, uint axis, Carriers carriers, flo
 
 // ---- edge contact ----
 
+// An edge whose normal comes within about 2 degrees of a face's lies on that face. Its one point jumps from end to end of the
+// edge when the boxes turn a little, where the face has points at both: a box that was pinched 2 cm deep trembled at
+// 0.25 m/s for seconds.
+const float k_almost_normal = 0.9995f; // the angle's cosine
+
+inline bool is_almost_normal(vec3 across, vec3 axis)
+{
+    precise float along = dot3(across, axis);
+    return along * along > k_almost_normal * k_almost_normal * dot3(across, across);
+}
+
+// The axis to collide along: the one that separates the boxes most, or the face that it stands for.
+inline uint axis_of_contact(BoxPair p, uint axis)
+{
+    if (axis < 6u) return axis;
+    vec3 across = cross3(axis_of(p.a, (axis - 6u) / 3u), axis_of(p.b, (axis - 6u) % 3u));
+    for (uint i = 0u; i < 3u; i += 1u) {
+        if (is_almost_normal(across, axis_of(p.a, i))) return i;
+        if (is_almost_normal(across, axis_of(p.b, i))) return 3u + i;
+    }
+    return axis;
+}
+
 // Closest points of two edges (lines: the separating axis crosses both within their length).
 inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float separation)
 {
@@ -300,12 +323,13 @@ inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, AxisQuery kno
     AxisQuery query = known;
     if (known.axis == k_axis_none) query = query_axes(p, carriers.axis);
     if (query.separation > max_separation) return no_contact();
+    uint axis = axis_of_contact(p, query.axis);
     ContactGeometry g;
-    if (query.axis >= 6u) {
-        g = edge_contact(p, (query.axis - 6u) / 3u, (query.axis - 6u) % 3u, query.separation);
+    if (axis >= 6u) {
+        g = edge_contact(p, (axis - 6u) / 3u, (axis - 6u) % 3u, query.separation);
     } else {
         // The reference box is the one whose face it is.
-        bool b_is_reference = query.axis >= 3u;
+        bool b_is_reference = axis >= 3u;
         BoxPair q = p;
         if (b_is_reference) {
             q.a = p.b;
@@ -314,11 +338,11 @@ inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, AxisQuery kno
             q.half_b = p.half_a;
             q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
         }
-        if (carriers.axis != query.axis) carriers = no_carriers();
-        g = face_contact(q, b_is_reference ? query.axis - 3u : query.axis, carriers, max_separation);
+        if (carriers.axis != axis) carriers = no_carriers();
+        g = face_contact(q, b_is_reference ? axis - 3u : axis, carriers, max_separation);
         if (b_is_reference) g = swap_bodies(g, q.offset);
     }
-    g.axis = query.axis;
-    g.separation = query.separation;
+    g.axis = axis;
+    g.separation = axis == query.axis ? query.separation : separation_along(p, g.normal);
     return g;
 }

@@ -8,13 +8,13 @@
 // order of ranks, whatever the order in which edges are listed or threads run.
 //
 // Colours are solved in ascending order, and given from the last one down. What is solved last holds, and a light box
-// under a heavy one must not be pressed into the floor: so edges to bodies that cannot be pushed come first and get the
-// last colour, and others get it where they are many and it is free. solver.md, The ground last.
+// under a heavy one must not be pressed into the ground: so edges to the ground, which is all that cannot be pushed, are
+// coloured first and get the last colour. It is lent to others where a body has many. solver.md, The ground last.
 
 const uint k_rank_mask = 0x3fffffffu; // slots are below 2^30
 // Of 1,500 numbers the one with the fewest colours over eight scenes of walls, pyramids and columns: 8 instead of 9.
 const uint k_rank_start = 0x1db40204u;
-const uint k_on_ground = 0x80000000u; // one of the bodies cannot be pushed
+const uint k_on_ground = 0x80000000u;
 
 // Of two different bodies, in either order. Not 0.
 inline uint edge_rank(uint body_a, uint body_b, bool both_movable)
@@ -52,6 +52,13 @@ inline uint first_free_hub_colour(uint used_high)
 {
     uint free = ~used_high >> (k_first_hub_colour - 32u);
     return free != 0u ? k_first_hub_colour + uint(findLSB(free)) : k_overflow_colour;
+}
+
+// Whether an edge keeps the colour of the last step. The ground's last colour is only lent to others: one of the bodies may
+// have come to the ground since, and what is solved before the rest would be so for as long as they touch.
+inline bool is_kept(uint colour, bool both_movable, uint usable)
+{
+    return colour < usable && !(both_movable && colour == k_ground_colour);
 }
 
 // Whether the solver treats a manifold: the bodies touch, or are about to, and neither is a sensor.

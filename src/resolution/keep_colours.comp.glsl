@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
-// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes. Also counts manifolds and
-// contact points.
+// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's.
+// Also counts manifolds and contact points.
 // Reads: Manifolds, ManifoldPoints, Shapes.
 // Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
 // Counters. The order of the list depends on who comes first; nothing that is made from it does.
@@ -47,7 +47,8 @@ void main()
         atomicAdd(counters[k_counter_contact_count], manifold.point_count);
         atomicMax(counters[k_counter_substep_demand], manifold.substeps);
         colour = manifold.colour;
-        if (colour < parameters.usable_colours) {
+        bool both_movable = is_movable(shapes[manifold.body_a]) && is_movable(shapes[manifold.body_b]);
+        if (is_kept(colour, both_movable, parameters.usable_colours)) {
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
             atomicMax(counters[k_counter_colour_demand], colours_down_to(colour));

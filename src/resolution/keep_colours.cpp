@@ -24,7 +24,9 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
             state.counters[k_counter_contact_count] += manifold.point_count;
             state.counters[k_counter_substep_demand] = max(state.counters[k_counter_substep_demand], manifold.substeps);
             colour = manifold.colour;
-            if (colour < state.parameters.usable_colours) {
+            const bool both_movable =
+                is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]);
+            if (is_kept(colour, both_movable, state.parameters.usable_colours)) {
                 use_colour(manifold.body_a, colour);
                 use_colour(manifold.body_b, colour);
                 uint& demand = state.counters[k_counter_colour_demand];

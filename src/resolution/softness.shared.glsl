@@ -32,7 +32,7 @@ struct Substep {
 };
 
 // How many times as heavy as the two bodies is what they carry or stop, roughly: the speed that the impulses of the last
-// step give to both, over one that a light load does not reach. solver.md, Heavy on light.
+// step, or of this one so far, give to both, over one that a light load does not reach. solver.md, Heavy on light.
 const float k_per_light_load = 0.125f; // s/m: over 8 m/s
 
 inline float heaviness(float load_speed)
@@ -57,7 +57,7 @@ inline float substep_length(uint substeps, Parameters p)
 // A contact's frequency is an eighth of the sub-step rate, the stiffest that does not ring, and at most
 // contact_frequency (rad/s); twice that against a body that cannot be pushed. Baumgarte's rows are rigid, with the
 // bias rate of equation 3.17. The damping ratio is meant for the mass that swings on the contact, so that it grows with
-// the root of that. `load_speed`: the constraint's.
+// the root of that. `load_speed`: see load_speed_so_far in contact.shared.glsl.
 inline Substep make_substep(uint substeps, bool against_static, float load_speed, Parameters p)
 {
     Substep s;

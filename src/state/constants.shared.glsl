@@ -48,7 +48,7 @@ const uint k_combine_multiply = 3u;
 // The constraint graph: colours 0 to k_max_colours - 1, the last of them for contacts of hubs; then the overflow set, then
 // pairs that do not touch.
 const uint k_max_colours = 64u;
-const uint k_ground_colour = 61u; // for contacts with bodies that cannot be pushed
+const uint k_ground_colour = 61u; // for contacts with the ground: bodies that cannot be pushed
 const uint k_first_hub_colour = 62u;
 const uint k_overflow_colour = 64u;
 const uint k_inactive_colour = 127u;
@@ -62,7 +62,7 @@ const uint k_counter_pair_demand = 1u;    // pairs of the last search
 const uint k_counter_pair_count = 2u;     // 0 in a step that did not fit
 const uint k_counter_manifold_count = 3u; // pairs that touch; once colours are planned, without sleeping ones
 const uint k_counter_contact_count = 4u;  // contact points
-const uint k_counter_colour_demand = 5u;  // colours in use, without the overflow set
+const uint k_counter_colour_demand = 5u;  // colours from k_ground_colour down to the last that is in use
 const uint k_counter_overflow_count = 6u; // manifolds in the overflow set
 const uint k_counter_uncoloured = 7u;     // manifolds still without a colour
 const uint k_counter_did_not_fit = 8u;    // k_fit_* bits; sticky until the host has made room
