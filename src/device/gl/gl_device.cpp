@@ -53,15 +53,6 @@ std::optional<uint> resident_groups_of_environment() {
     return groups;
 }
 
-/// Lets the driver compile kernels in as many threads as it likes.
-void compile_side_by_side() {
-    constexpr GLuint k_as_many_as_it_likes = 0xffffffffu;
-    if (epoxy_has_gl_extension("GL_ARB_parallel_shader_compile"))
-        glMaxShaderCompilerThreadsARB(k_as_many_as_it_likes);
-    else if (epoxy_has_gl_extension("GL_KHR_parallel_shader_compile"))
-        glMaxShaderCompilerThreadsKHR(k_as_many_as_it_likes);
-}
-
 } // namespace
 
 GlDevice::Objects::Objects(bool profile, bool program_cache)
@@ -303,11 +294,16 @@ GlBuffer& GlDevice::buffer(BufferId id) const {
 
 void GlDevice::keep_programs() {
     if (!objects_->cache.keeps()) return;
-    for (auto& [path, program] : objects_->programs) {
-        try {
-            program.finish(objects_->cache);
-        } catch (const Error&) { // nobody has needed it
-        }
+    for (auto& [path, program] : objects_->programs)
+        finish_unneeded(program);
+}
+
+bool GlDevice::finish_unneeded(GlProgram& program) {
+    try {
+        program.finish(objects_->cache);
+        return true;
+    } catch (const Error&) { // told to those who need it
+        return false;
     }
 }
 
@@ -327,7 +323,7 @@ GlProgram& GlDevice::program(const Kernel& kernel) {
 
 void GlDevice::finish_another() {
     for (auto& [path, program] : objects_->programs) {
-        if (!program.finished() && program.is_compiled()) return program.finish(objects_->cache);
+        if (!program.finished() && program.is_compiled() && finish_unneeded(program)) return;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }

@@ -68,6 +68,8 @@ private:
     /// While one is still compiled: some drivers make the machine's code only when the program is first asked for, on
     /// this thread. Naps where none is ready.
     void finish_another();
+    /// Of a kernel that nobody waits for: false where it is faulty, which those who run it are told.
+    bool finish_unneeded(GlProgram&);
     /// Those too that have never run: the next start begins with them again. Waits for the compiler.
     void keep_programs();
     void run_kernel(const Launch&);

@@ -11,6 +11,10 @@
 namespace talus::engine {
 namespace {
 
+// The same extension under two names.
+constexpr const char* k_arb_side_by_side = "GL_ARB_parallel_shader_compile";
+constexpr const char* k_khr_side_by_side = "GL_KHR_parallel_shader_compile";
+
 std::string shader_log(GLuint shader) {
     GLint length = 0;
     glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
@@ -60,8 +64,15 @@ bool is_declared_readonly(std::string_view source, const std::string& block) {
 } // namespace
 
 bool compiles_side_by_side() {
-    return epoxy_has_gl_extension("GL_ARB_parallel_shader_compile") ||
-           epoxy_has_gl_extension("GL_KHR_parallel_shader_compile");
+    return epoxy_has_gl_extension(k_arb_side_by_side) || epoxy_has_gl_extension(k_khr_side_by_side);
+}
+
+void compile_side_by_side() {
+    constexpr GLuint k_as_many_as_it_likes = 0xffffffffu;
+    if (epoxy_has_gl_extension(k_arb_side_by_side))
+        glMaxShaderCompilerThreadsARB(k_as_many_as_it_likes);
+    else if (epoxy_has_gl_extension(k_khr_side_by_side))
+        glMaxShaderCompilerThreadsKHR(k_as_many_as_it_likes);
 }
 
 GlProgram::GlProgram(const std::string& path, const ProgramCache& cache)

@@ -26,6 +26,9 @@ struct StorageBlock {
 /// Whether the driver of the current context compiles in threads of its own, and tells when it is done.
 bool compiles_side_by_side();
 
+/// Lets the driver of the current context do so in as many threads as it likes, where it can.
+void compile_side_by_side();
+
 class GlProgram {
 public:
     /// Takes the program from the cache, or gives its source to the driver's compiler without waiting for it. Throws
