@@ -127,13 +127,15 @@ void find_colours(uint group)
 uint own_bodies; // a bit for each
 
 uint worker() { return gl_LocalInvocationID.x; }
-uint worker_count() { return gl_WorkGroupSize.x; }
 
 void wait_for_workers()
 {
     groupMemoryBarrier();
     barrier();
 }
+
+uvec3 own_manifolds(uint begin) { return uvec3(begin + worker(), gl_WorkGroupSize.x, begin); }
+void wait_for_some() {} // all are one group
 
 void integrate_own_bodies(uint substep)
 {

@@ -69,12 +69,35 @@ uint meeting_groups() { return gl_NumWorkGroups.x; }
 // invocations: all multiprocessors are to have some.
 const uint k_neighbours = 32u;
 
-uint worker()
+// Of the workers of `groups` groups, if this one's has the number `group`.
+uint worker_among(uint group, uint groups)
 {
     uint me = gl_LocalInvocationID.x;
-    return (me / k_neighbours * gl_NumWorkGroups.x + gl_WorkGroupID.x) * k_neighbours + me % k_neighbours;
+    return (me / k_neighbours * groups + group) * k_neighbours + me % k_neighbours;
 }
-uint worker_count() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x; }
+
+uint worker() { return worker_among(gl_WorkGroupID.x, gl_NumWorkGroups.x); }
+
+// The first colours are those that only a few manifolds have needed. The first group solves these alone while the others
+// make ready for their first: a wait among all groups takes longer than such a colour does.
+const uint k_few = 128u;           // in all these colours together; with more a group alone is slower
+const uint k_beyond = 0x7fffffffu; // all manifolds
+
+uvec3 own_manifolds(uint begin)
+{
+    uint groups = gl_NumWorkGroups.x;
+    uint end_of_few = begin;
+    for (uint colour = 0u; colour <= k_first_hub_colour && groups > 1u; ++colour) {
+        if (colour_offsets[colour] <= begin + k_few) end_of_few = colour_offsets[colour];
+    }
+    if (end_of_few == begin) return uvec3(begin + worker(), groups * gl_WorkGroupSize.x, begin);
+    if (gl_WorkGroupID.x == 0u) {
+        uint index = begin + gl_LocalInvocationID.x;
+        return uvec3(index < end_of_few ? index : k_beyond, k_beyond, end_of_few);
+    }
+    uint index = end_of_few + worker_among(gl_WorkGroupID.x - 1u, groups - 1u);
+    return uvec3(index, (groups - 1u) * gl_WorkGroupSize.x, end_of_few);
+}
 
 // Groups are adding up what contacts have done to hubs: nobody else may read a hub's velocity before the next wait.
 bool hubs_move = false;
@@ -83,6 +106,15 @@ void wait_for_workers()
 {
     wait_for_all_groups();
     hubs_move = false;
+}
+
+void wait_for_some()
+{
+    if (gl_WorkGroupID.x == 0u) {
+        memoryBarrierBuffer();
+        barrier();
+        memoryBarrierBuffer(); // barrier() orders shared memory only
+    }
 }
 
 void wait_for_finish()
@@ -119,7 +151,7 @@ void integrate_own_bodies(uint substep)
         } else {
             body = next;
             is_own = is_workers(body);
-            next += worker_count();
+            next += gl_NumWorkGroups.x * gl_WorkGroupSize.x;
         }
         if (is_own) integrate_body(body, substep);
     }

@@ -7,8 +7,11 @@
 // code of a function into every place that calls it.
 // Before this file the kernel includes contact_passes.glsl and body_passes.glsl, has colour_offsets[] as the buffer
 // ColourOffsets does, and defines
-//   uint worker(), uint worker_count(): which of the workers this is, and of how many
+//   uint worker(): which of the workers this is
+//   uvec3 own_manifolds(uint begin): its first manifold with a colour, where they begin; how far it is from each to the
+//     next; and where those of the first colours end that some workers solve among themselves
 //   void wait_for_workers(): until all are here, and what they have written is seen
+//   void wait_for_some(): the same of those workers, after one of these colours but the last
 //   void finish_colour(uint colour, uint substep): what follows a colour's pass, once all are here
 //   void wait_for_finish(): until all see what it has changed
 //   void integrate_own_bodies(uint substep): integrate_body for the worker's bodies
@@ -17,14 +20,16 @@ uint end_index;     // of the manifolds with a colour; the overflow set follows
 uint own_end;       // of those that the worker may have: the overflow set is the first one's
 uint first_colour;  // in use
 uint first_index;   // the worker's first manifold; k_none: it has none
+uint stride;        // to its next one
+uint end_of_some;   // of the manifolds of the first colours, if some of the workers solve those
 uint index_in_hand; // k_none: none
 
 uint if_own(uint index) { return index < own_end ? index : k_none; }
 
-// The worker's manifold after this one: every worker_count()-th, and the overflow set one after the other.
+// The worker's manifold after this one; the overflow set one after the other.
 uint next_own(uint index)
 {
-    return if_own(index < end_index ? min(index + worker_count(), end_index) : index + 1u);
+    return if_own(index < end_index ? min(index + stride, end_index) : index + 1u);
 }
 
 void find_own_manifolds()
@@ -34,7 +39,10 @@ void find_own_manifolds()
     first_colour = k_first_hub_colour;
     while (colour_offsets[first_colour] > colour_offsets[0])
         --first_colour;
-    first_index = if_own(min(colour_offsets[0] + worker(), end_index));
+    uvec3 own = own_manifolds(colour_offsets[0]);
+    first_index = if_own(min(own.x, end_index));
+    stride = own.y;
+    end_of_some = own.z;
     index_in_hand = k_none;
 }
 
@@ -82,7 +90,10 @@ void pass_over_contacts(uint pass, uint substep)
             if (pass != k_warm_start && index != k_none) target = target_of_pass(pass);
         }
         if (begin == end) continue;
-        wait_for_workers();
+        if (end < end_of_some)
+            wait_for_some();
+        else
+            wait_for_workers();
         finish_colour(colour - 1u, substep);
         begin = end;
     }
