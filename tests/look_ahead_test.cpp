@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contacts between bodies that move: their geometry is that of the moment in which they meet.
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -105,19 +106,20 @@ TEST(LookAhead, never_lets_bodies_pass_into_each_other) {
         const BodyShape shape_a = box_of(vec3(0.4f, 0.6f, 0.5f));
         const BodyShape shape_b = i % 2 == 0 ? box_of(vec3(0.3f, 0.5f, 0.4f)) : sphere_of(0.4f);
         const vec3 motion = 0.3f * vec3(unit(random), unit(random), unit(random));
-        const ContactGeometry still = collide_shapes(a, shape_a, b, shape_b, no_carriers(), no_query(), 1.0f);
-        if (still.separation <= 0.0f || still.separation == k_far_apart) continue;
+        const float apart = largest_separation(a, shape_a, b, shape_b);
+        if (apart <= 0.0f || apart == k_far_apart) continue;
         const ContactGeometry g =
             collide_moving_shapes(a, shape_a, b, shape_b, motion, no_carriers(), no_query(), 1.0f);
         if (g.separation == k_far_apart) continue;
-        // 2.5 mm: an edge as the normal has to be that much better than a face.
-        EXPECT_LE(g.separation, largest_separation(a, shape_a, b, shape_b) + 2.6e-3f) << i;
+        // 2.5 mm: an edge as the normal has to be that much better than a face. And where a face stands for edges its
+        // normal may be 2 degrees from theirs.
+        const float turned = 0.032f * k_steps_ahead * std::sqrt(dot3(motion, motion));
+        EXPECT_LE(g.separation, apart + 2.6e-3f + (shape_b.type == shape_a.type ? turned : 0.0f)) << i;
         // As far as the contact lets B come.
         const float closing = -dot3(g.normal, motion);
         const float share = closing > g.separation ? std::max(g.separation, 0.0f) / closing : 1.0f;
         b.position = b.position + motion * share;
-        EXPECT_GT(collide_shapes(a, shape_a, b, shape_b, no_carriers(), no_query(), 1.0f).separation, -2.0f * k_graze)
-            << i;
+        EXPECT_GT(largest_separation(a, shape_a, b, shape_b), -2.0f * k_graze) << i;
         ++seen;
     }
     EXPECT_GT(seen, 3'000);

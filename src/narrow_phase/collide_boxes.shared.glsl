@@ -257,14 +257,16 @@ inline bool is_almost_normal(vec3 across, vec3 axis)
     return along * along > k_almost_normal * k_almost_normal * dot3(across, across);
 }
 
-// The axis to collide along: the one that separates the boxes most, or the face that it stands for.
-inline uint axis_of_contact(BoxPair p, uint axis)
+// The axis to collide along: the one that separates the boxes most, or the face that it stands for; where there are two
+// such faces, the last step's if it is one of them. Boxes that do not touch yet have no end of an edge to lose.
+inline uint axis_of_contact(BoxPair p, AxisQuery query, uint old_axis)
 {
-    if (axis < 6u) return axis;
+    uint axis = query.axis;
+    if (axis < 6u || query.separation > k_near) return axis;
     vec3 across = cross3(axis_of(p.a, (axis - 6u) / 3u), axis_of(p.b, (axis - 6u) % 3u));
-    for (uint i = 0u; i < 3u; i += 1u) {
-        if (is_almost_normal(across, axis_of(p.a, i))) return i;
-        if (is_almost_normal(across, axis_of(p.b, i))) return 3u + i;
+    for (uint face = 0u; face < 6u; face += 1u) {
+        vec3 normal = face < 3u ? axis_of(p.a, face) : axis_of(p.b, face - 3u);
+        if ((axis >= 6u || face == old_axis) && is_almost_normal(across, normal)) axis = face;
     }
     return axis;
 }
@@ -317,32 +319,39 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
     return g;
 }
 
+// `axis`: of a face, the reference face.
+inline ContactGeometry contact_at_face(BoxPair p, uint axis, Carriers carriers, float max_separation)
+{
+    bool b_is_reference = axis >= 3u;
+    BoxPair q = p;
+    if (b_is_reference) {
+        q.a = p.b;
+        q.b = p.a;
+        q.half_a = p.half_b;
+        q.half_b = p.half_a;
+        q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
+    }
+    if (carriers.axis != axis) carriers = no_carriers();
+    ContactGeometry g = face_contact(q, b_is_reference ? axis - 3u : axis, carriers, max_separation);
+    if (b_is_reference) g = swap_bodies(g, q.offset);
+    g.axis = axis;
+    return g;
+}
+
 // `known`: of these boxes, or no_query().
 inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, AxisQuery known, float max_separation)
 {
     AxisQuery query = known;
     if (known.axis == k_axis_none) query = query_axes(p, carriers.axis);
     if (query.separation > max_separation) return no_contact();
-    uint axis = axis_of_contact(p, query.axis);
-    ContactGeometry g;
-    if (axis >= 6u) {
-        g = edge_contact(p, (axis - 6u) / 3u, (axis - 6u) % 3u, query.separation);
-    } else {
-        // The reference box is the one whose face it is.
-        bool b_is_reference = axis >= 3u;
-        BoxPair q = p;
-        if (b_is_reference) {
-            q.a = p.b;
-            q.b = p.a;
-            q.half_a = p.half_b;
-            q.half_b = p.half_a;
-            q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
-        }
-        if (carriers.axis != axis) carriers = no_carriers();
-        g = face_contact(q, b_is_reference ? axis - 3u : axis, carriers, max_separation);
-        if (b_is_reference) g = swap_bodies(g, q.offset);
+    uint axis = axis_of_contact(p, query, carriers.axis);
+    if (axis < 6u) {
+        ContactGeometry g = contact_at_face(p, axis, carriers, max_separation);
+        g.separation = query.separation;
+        // Just before the boxes touch a face that stands for edges may have no point.
+        if (query.axis < 6u || g.count > 0u) return g;
     }
-    g.axis = axis;
-    g.separation = axis == query.axis ? query.separation : separation_along(p, g.normal);
+    ContactGeometry g = edge_contact(p, (query.axis - 6u) / 3u, (query.axis - 6u) % 3u, query.separation);
+    g.axis = query.axis;
     return g;
 }

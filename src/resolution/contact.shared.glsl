@@ -302,7 +302,7 @@ struct NormalSweep {
 // slowly: they would throw it back as fast as it came. So where it leaves faster than it is pushed they fall as many
 // times faster as it is heavier. In a pass no more than a part of an impulse goes: a light body between two others would be
 // shot out where one of them lets go of all and the other of little. solver.md, Heavy on light.
-const float k_most_let_go = 0.25f;
+const float k_most_let_go = 0.125f;
 
 inline NormalTarget let_go_of_thrown(NormalTarget target, NormalSweep sweep)
 {
