@@ -70,6 +70,16 @@ inline BodyDefinition weighing(BodyDefinition definition, float mass) {
     return definition;
 }
 
+/// Boxes of 1 t that fall together from 10 cm: one in the middle, four at its sides, and one of `mass` (kg) on it.
+inline std::vector<BodyDefinition> crowded_box(float x, float mass) {
+    constexpr float height = 0.6f;
+    std::vector<BodyDefinition> bodies{box_at({x, height, 0.0f})};
+    for (const Vec3 side : {Vec3{1.0f, 0.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, -1.0f}})
+        bodies.push_back(box_at(Vec3{x, height, 0.0f} + side));
+    bodies.push_back(weighing(box_at({x + 0.05f, height + 1.0f, 0.03f}), mass));
+    return bodies;
+}
+
 inline std::vector<BodyDefinition> bodies_of(std::string_view scene_name) {
     std::vector<BodyDefinition> definitions;
     for (const scenes::NamedBody& body : scenes::make_scene(scene_name).bodies)

@@ -155,14 +155,10 @@ TEST_P(Colouring, of_what_stands_the_lowest_contact_is_solved_last) {
     }
 }
 
-/// A box that falls among four others, with one on it, has so many contacts that some borrow the last colour.
+/// A crowded box has so many contacts while it falls that some borrow the last colour.
 TEST_P(Colouring, the_ground_gets_the_last_colour_back) {
-    std::vector<BodyDefinition> bodies{ground()};
-    constexpr float height = 0.6f; // of the centres: 10 cm above the ground
-    bodies.push_back(box_at({0, height, 0}));
-    for (const auto& [x, z] : {std::pair{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}})
-        bodies.push_back(box_at({x, height, z}));
-    bodies.push_back(box_at({0.05f, height + 1.0f, 0.03f}));
+    std::vector<BodyDefinition> bodies = crowded_box(0.0f, 1000.0f);
+    bodies.insert(bodies.begin(), ground());
     EngineRun run(options_on(GetParam()), bodies);
     run.step();
     expect_valid(run);

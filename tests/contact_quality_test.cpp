@@ -101,11 +101,7 @@ TEST_P(LongContactQuality, a_light_box_that_falls_among_others_under_a_heavy_one
     world.add(ground());
     float x = 0.0f;
     for (const float ratio : {10.0f, 100.0f}) {
-        constexpr float height = 0.6f;
-        world.add(box_at({x, height, 0.0f}));
-        for (const auto& [dx, dz] : {std::pair{1.0f, 0.0f}, {-1.0f, 0.0f}, {0.0f, 1.0f}, {0.0f, -1.0f}})
-            world.add(box_at({x + dx, height, dz}));
-        world.add(weighing(box_at({x + 0.05f, height + 1.0f, 0.03f}), 1000.0f * ratio));
+        world.add(crowded_box(x, 1000.0f * ratio));
         x += 6.0f;
     }
     expect_stillness(world, 20);

@@ -125,23 +125,27 @@ World world_for(const Case& scene, DeviceKind device) {
     return World(with_hubs(scene.weighty ? Settings{} : weightless()), options_on(device));
 }
 
+std::function<std::vector<BodyDefinition>()> of_scene(const char* name) {
+    return [name] { return bodies_of(name); };
+}
+
 const Case k_cases[] = {
-    {"stack", true, 600, [] { return bodies_of("stack:height=10"); }},
-    {"pyramid", true, 600, [] { return bodies_of("pyramid:base=10"); }},
+    {"stack", true, 600, of_scene("stack:height=10")},
+    {"pyramid", true, 600, of_scene("pyramid:base=10")},
     {"pyramid_that_falls", true, 300, pyramid_that_falls},
-    {"pool", true, 600, [] { return bodies_of("pool:boxes=150"); }},
-    {"pile", true, 300, [] { return bodies_of("pile:boxes=150"); }},
-    {"rubble", true, 300, [] { return bodies_of("rubble:boxes=150"); }},
-    {"tower", true, 300, [] { return bodies_of("stack:height=60"); }},
-    {"extreme_stack", true, 120, [] { return bodies_of("extreme_stack:height=14"); }},
-    {"wall", true, 300, [] { return bodies_of("wall:width=10,height=8"); }},
-    {"card_house", true, 300, [] { return bodies_of("card_house"); }},
-    {"dominoes", true, 300, [] { return bodies_of("dominoes:count=30"); }},
-    {"slope", true, 300, [] { return bodies_of("slope"); }},
-    {"plate", true, 300, [] { return bodies_of("plate:boxes=50"); }},
-    {"heavy_on_light", true, 300, [] { return bodies_of("heavy_on_light:ratio=1000"); }},
-    {"brick_gables", true, 120, [] { return bodies_of("brick_gables:across=2,rows=1,base=8"); }},
-    {"worlds", true, 300, [] { return bodies_of("worlds:count=4"); }},
+    {"pool", true, 600, of_scene("pool:boxes=150")},
+    {"pile", true, 300, of_scene("pile:boxes=150")},
+    {"rubble", true, 300, of_scene("rubble:boxes=150")},
+    {"tower", true, 300, of_scene("stack:height=60")},
+    {"extreme_stack", true, 120, of_scene("extreme_stack:height=14")},
+    {"wall", true, 300, of_scene("wall:width=10,height=8")},
+    {"card_house", true, 300, of_scene("card_house")},
+    {"dominoes", true, 300, of_scene("dominoes:count=30")},
+    {"slope", true, 300, of_scene("slope")},
+    {"plate", true, 300, of_scene("plate:boxes=50")},
+    {"heavy_on_light", true, 300, of_scene("heavy_on_light:ratio=1000")},
+    {"brick_gables", true, 120, of_scene("brick_gables:across=2,rows=1,base=8")},
+    {"worlds", true, 300, of_scene("worlds:count=4")},
     {"plates_that_fall", true, 300, plates_that_fall},
     {"table_on_legs", true, 600, [] { return table_on_legs(8, 2); }},
     {"cards", true, 600, cards},

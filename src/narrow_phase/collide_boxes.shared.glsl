@@ -319,7 +319,7 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
     return g;
 }
 
-// `axis`: of a face, the reference face.
+// The reference box is the one whose face it is: `axis` is below 6.
 inline ContactGeometry contact_at_face(BoxPair p, uint axis, Carriers carriers, float max_separation)
 {
     bool b_is_reference = axis >= 3u;

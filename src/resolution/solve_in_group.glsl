@@ -135,7 +135,7 @@ void wait_for_workers()
 }
 
 uvec3 own_manifolds(uint begin) { return uvec3(begin + worker(), gl_WorkGroupSize.x, begin); }
-void wait_for_some() {} // all are one group
+void wait_for_few() {} // all are one group
 
 void integrate_own_bodies(uint substep)
 {

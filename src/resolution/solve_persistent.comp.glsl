@@ -80,7 +80,7 @@ uint worker() { return worker_among(gl_WorkGroupID.x, gl_NumWorkGroups.x); }
 
 // The first colours are those that only a few manifolds have needed. The first group solves these alone while the others
 // make ready for their first: a wait among all groups takes longer than such a colour does.
-const uint k_few = 128u;           // in all these colours together; with more a group alone is slower
+const uint k_few = 128u;           // in all these colours together, one for an invocation; with more it is slower
 const uint k_beyond = 0x7fffffffu; // all manifolds
 
 uvec3 own_manifolds(uint begin)
@@ -108,7 +108,7 @@ void wait_for_workers()
     hubs_move = false;
 }
 
-void wait_for_some()
+void wait_for_few()
 {
     if (gl_WorkGroupID.x == 0u) {
         memoryBarrierBuffer();

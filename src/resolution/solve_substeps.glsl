@@ -11,7 +11,7 @@
 //   uvec3 own_manifolds(uint begin): its first manifold with a colour, where they begin; how far it is from each to the
 //     next; and where those of the first colours end that some workers solve among themselves
 //   void wait_for_workers(): until all are here, and what they have written is seen
-//   void wait_for_some(): the same of those workers, after one of these colours but the last
+//   void wait_for_few(): the same of those workers, after one of these colours but the last
 //   void finish_colour(uint colour, uint substep): what follows a colour's pass, once all are here
 //   void wait_for_finish(): until all see what it has changed
 //   void integrate_own_bodies(uint substep): integrate_body for the worker's bodies
@@ -21,7 +21,7 @@ uint own_end;       // of those that the worker may have: the overflow set is th
 uint first_colour;  // in use
 uint first_index;   // the worker's first manifold; k_none: it has none
 uint stride;        // to its next one
-uint end_of_some;   // of the manifolds of the first colours, if some of the workers solve those
+uint end_of_few;    // of the manifolds of the first colours, if some of the workers solve those
 uint index_in_hand; // k_none: none
 
 uint if_own(uint index) { return index < own_end ? index : k_none; }
@@ -42,7 +42,7 @@ void find_own_manifolds()
     uvec3 own = own_manifolds(colour_offsets[0]);
     first_index = if_own(min(own.x, end_index));
     stride = own.y;
-    end_of_some = own.z;
+    end_of_few = own.z;
     index_in_hand = k_none;
 }
 
@@ -90,8 +90,8 @@ void pass_over_contacts(uint pass, uint substep)
             if (pass != k_warm_start && index != k_none) target = target_of_pass(pass);
         }
         if (begin == end) continue;
-        if (end < end_of_some)
-            wait_for_some();
+        if (end < end_of_few)
+            wait_for_few();
         else
             wait_for_workers();
         finish_colour(colour - 1u, substep);
