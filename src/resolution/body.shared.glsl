@@ -121,8 +121,8 @@ inline BodyWarmStart gather_impulses(BodyWarmStart warm, BodyVelocity velocity)
 // The sub-step will move the body by its velocity after the hit; until then it has had the one before.
 inline BodyWarmStart take_hit(BodyWarmStart warm, BodyVelocity before, BodyVelocity after, float time)
 {
-    precise vec3 linear = warm.linear_before + (after.linear - before.linear);
-    precise vec3 angular = warm.angular_before + (after.angular - before.angular);
+    precise vec3 linear = after.linear - (before.linear - warm.linear_before);
+    precise vec3 angular = after.angular - (before.angular - warm.angular_before);
     precise vec3 shift = vec3(warm.shift_x, warm.shift_y, warm.shift_z) + (before.linear - after.linear) * time;
     warm.linear_before = linear;
     warm.angular_before = angular;
@@ -147,12 +147,37 @@ inline float damping_factor(float damping, float h)
     return choose(damping > 0.0f, factor, 1.0f);
 }
 
+// m/s², by gravity and the caller's load.
+inline vec3 acceleration_by_forces(BodyVelocity velocity, BodyProperties body, BodyLoad load, Parameters p)
+{
+    precise vec3 acceleration = p.gravity * body.gravity_scale + load.force * velocity.inverse_mass;
+    return acceleration;
+}
+
+// A body falls freely as long as contacts change its velocity by less than this of what forces do. Not only by nothing at
+// all: what brushes along a wall in its fall still falls.
+const float k_falling_share = 0.125f;
+
+// m/s², of a body that falls freely in this sub-step, by forces and by damping, of which 1 / (1 + h c) is the implicit
+// form. 0 of one that contacts hold.
+inline vec3 falling_acceleration(BodyVelocity velocity, BodyWarmStart warm, BodyProperties body, BodyLoad load, float h,
+                                 Parameters p)
+{
+    vec3 by_forces = acceleration_by_forces(velocity, body, load, p);
+    precise vec3 by_contacts = warm.linear + (velocity.linear - warm.linear_before);
+    precise float limit = k_falling_share * h;
+    precise float square_limit = limit * limit * dot3(by_forces, by_forces);
+    float damping = choose(velocity.inverse_mass > 0.0f, body.linear_damping, 0.0f); // none of a kinematic body
+    precise vec3 falling = by_forces - velocity.linear * damping;
+    return choose(dot3(by_contacts, by_contacts) < square_limit, falling, vec3(0.0f, 0.0f, 0.0f));
+}
+
 // Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits; then
 // the warm start. `rotation` is the present one.
 inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm, vec4 rotation, BodyProperties body,
                                        BodyInertia inertia, BodyLoad load, bool rigid, float h, Parameters p)
 {
-    precise vec3 linear = velocity.linear + (p.gravity * body.gravity_scale + load.force * velocity.inverse_mass) * h;
+    precise vec3 linear = velocity.linear + acceleration_by_forces(velocity, body, load, p) * h;
     if (!any_lane(rigid)) { // a kinematic body: gravity if its caller asked for it, nothing else
         velocity.linear = linear;
         return velocity;
@@ -197,9 +222,13 @@ inline BodyVelocity stop(BodyVelocity velocity)
     return velocity;
 }
 
-inline BodyDelta integrate_position(BodyDelta delta, BodyWarmStart warm, BodyVelocity velocity, float h)
+// `falling`: falling_acceleration. What falls moves along its parabola, h v - h^2 a / 2 with the velocity that it has at
+// the end; what contacts hold moves by h v, as they were solved for.
+inline BodyDelta integrate_position(BodyDelta delta, BodyWarmStart warm, BodyVelocity velocity, vec3 falling, float h)
 {
-    delta.position = add_scaled(shifted(delta, warm).position, velocity.linear, h);
+    precise float half_square = 0.5f * h * h;
+    vec3 position = add_scaled(shifted(delta, warm).position, velocity.linear, h);
+    delta.position = add_scaled(position, falling, -half_square);
     delta.rotation = integrate_rotation(delta.rotation, velocity.angular, h);
     return delta;
 }

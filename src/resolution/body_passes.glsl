@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What a sub-step does to one body. Before this file the kernel defines slot_of, load_velocity, store_velocity and
-// load_delta, as for contact_passes.glsl, and void store_delta(uint body, BodyDelta delta); and it declares Inertias,
-// WarmStarts and Counters. The CPU's counterpart is body_passes.h.
+// load_delta, as for contact_passes.glsl, and void store_delta(uint body, BodyDelta delta); and it declares Properties,
+// Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
-layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
-layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 
 bool is_launched(BodyInertia inertia)
 {
@@ -28,15 +26,18 @@ void integrate_body(uint body, uint substep)
     BodyVelocity velocity = load_velocity(slot_of(body));
     BodyDelta delta = load_delta(body);
     BodyWarmStart warm = load_warm_start(body);
+    BodyProperties its_properties = unpack(properties[body]);
+    BodyLoad load = unpack(loads[body]);
     if (substep > 0u) {
-        delta = integrate_position(delta, warm, velocity, h);
+        vec3 falling = falling_acceleration(velocity, warm, its_properties, load, h, parameters);
+        delta = integrate_position(delta, warm, velocity, falling, h);
         store_delta(body, delta);
     }
     if (substep == inertia.substeps) return;
 
     vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
     warm = gather_impulses(warm, velocity);
-    velocity = integrate_velocity(velocity, warm, rotation, unpack(properties[body]), inertia, unpack(loads[body]),
+    velocity = integrate_velocity(velocity, warm, rotation, its_properties, inertia, load,
                                   is_movable(unpack(shapes[body])), h, parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();

@@ -19,13 +19,19 @@ inline void integrate_body(CpuState& state, uint body, uint substep) {
     const float h = substep_length(inertia.substeps, state.parameters);
     BodyVelocity velocity = state.velocities[body];
     BodyDelta& delta = state.deltas[body];
-    if (substep > 0) delta = integrate_position(delta, state.warm_starts[body], velocity, h);
+    const BodyProperties& properties = state.properties[body];
+    const BodyLoad& load = state.loads[body];
+    if (substep > 0) {
+        const BodyWarmStart& last = state.warm_starts[body];
+        const vec3 falling = falling_acceleration(velocity, last, properties, load, h, state.parameters);
+        delta = integrate_position(delta, last, velocity, falling, h);
+    }
     if (substep == inertia.substeps) return;
 
     const vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
     BodyWarmStart warm = gather_impulses(state.warm_starts[body], velocity);
-    velocity = integrate_velocity(velocity, warm, rotation, state.properties[body], inertia, state.loads[body],
-                                  is_movable(state.shapes[body]), h, state.parameters);
+    velocity = integrate_velocity(velocity, warm, rotation, properties, inertia, load, is_movable(state.shapes[body]),
+                                  h, state.parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();
         warm = no_warm_start(velocity);

@@ -8,10 +8,12 @@
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
-// Reads: Inertias. Reads and writes: Constraints (their impulses), WarmStarts.
+// Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts.
 
 layout(std430) buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
+layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
@@ -113,6 +115,13 @@ bool can_be_hit(uint index, ManifoldState before)
            can_be_hit_again(before, load_warm_start(body_a), load_warm_start(body_b));
 }
 
+vec3 falling_acceleration_of(uint body, BodyVelocity velocity)
+{
+    float h = substep_length(substeps, parameters);
+    return falling_acceleration(velocity, load_warm_start(body), unpack(properties[body]), unpack(loads[body]), h,
+                                parameters);
+}
+
 // Instead of the pass that has found the hit, whose result was not put back.
 ManifoldState pass_over_hit(uint index, float old_share)
 {
@@ -122,7 +131,9 @@ ManifoldState pass_over_hit(uint index, float old_share)
     Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
     ManifoldState before = begin_pass();
-    Hit hit = solve_hit(before.velocities, rows, slip, separations, substep.inv_h, parameters);
+    precise vec3 falling = falling_acceleration_of(body_b, before.velocities.b) -
+                           falling_acceleration_of(body_a, before.velocities.a);
+    Hit hit = solve_hit(before.velocities, rows, slip, separations, falling, substep.inv_h, parameters);
     if (!is_finite_pair(hit.velocities)) return before;
     put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);

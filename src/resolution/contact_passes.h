@@ -54,9 +54,15 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     const Substep substep = make_substep(c.substeps, is_against_static(c.traits), c.load_speed, state.parameters);
     const BodyDelta delta_a = shifted(state.deltas[c.body_a], state.warm_starts[c.body_a]);
     const BodyDelta delta_b = shifted(state.deltas[c.body_b], state.warm_starts[c.body_b]);
+    const float h = substep_length(c.substeps, state.parameters);
+    const auto falling = [&](uint body, const BodyVelocity& velocity) {
+        return falling_acceleration(velocity, state.warm_starts[body], state.properties[body], state.loads[body], h,
+                                    state.parameters);
+    };
     const Hit hit = solve_hit(before.velocities, rows, measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b),
-                              current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), substep.inv_h,
-                              state.parameters);
+                              current_separations(rows, c.base_separation, c.traits, delta_a, delta_b),
+                              falling(c.body_b, before.velocities.b) - falling(c.body_a, before.velocities.a),
+                              substep.inv_h, state.parameters);
     if (!is_finite_pair(hit.velocities)) return before;
     const auto take = [&](uint body, const BodyVelocity& was, const BodyVelocity& is) {
         BodyWarmStart& warm = state.warm_starts[body];

@@ -63,10 +63,11 @@ inline float time_of_bounce(float velocity, float mass, float separation, float 
     return bounces(velocity, mass, max(gap, 0.0f), p) ? time : k_never;
 }
 
-// The velocity that a point is to have after the hit, at least.
-inline float leaving_velocity(float velocity, float mass, float closing, float restitution, Parameters p)
+// The velocity that a point is to have at the end of the sub-step, at least. `velocity` is the one there without the hit,
+// and `gained` what the bodies gain of it by falling after the hit: v' = -e (v - gained) + gained.
+inline float leaving_velocity(float velocity, float mass, float closing, float restitution, float gained, Parameters p)
 {
-    precise float leaving = -restitution * velocity;
+    precise float leaving = max(0.0f, gained - restitution * (velocity - gained));
     return bounces(velocity, mass, closing, p) ? leaving : -closing;
 }
 
@@ -80,8 +81,9 @@ inline float time_of_hit(vec4 velocity, vec4 mass, vec4 separations, float inv_h
     return first < k_never ? first : 0.0f;
 }
 
-// `v`: the velocities before the pass.
-inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 separations, float inv_h, Parameters p)
+// `v`: the velocities before the pass. `falling`: m/s², the falling_acceleration of B less that of A.
+inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 separations, vec3 falling, float inv_h,
+                     Parameters p)
 {
     vec4 closing = closing_speeds(separations, inv_h);
     vec4 approaching = normal_velocities(relative_velocity(v, rows.meeting, slip), rows);
@@ -96,10 +98,11 @@ inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 separati
     vec4 velocity = sweep.velocity;
     vec4 mass = rows.normal_mass;
     float e = rows.restitution;
-    vec4 leaving = vec4(leaving_velocity(velocity.x, mass.x, closing.x, e, p),
-                        leaving_velocity(velocity.y, mass.y, closing.y, e, p),
-                        leaving_velocity(velocity.z, mass.z, closing.z, e, p),
-                        leaving_velocity(velocity.w, mass.w, closing.w, e, p));
+    precise float gained = dot3(falling, rows.meeting.frame.z) * (reciprocal(inv_h) - time);
+    vec4 leaving = vec4(leaving_velocity(velocity.x, mass.x, closing.x, e, gained, p),
+                        leaving_velocity(velocity.y, mass.y, closing.y, e, gained, p),
+                        leaving_velocity(velocity.z, mass.z, closing.z, e, gained, p),
+                        leaving_velocity(velocity.w, mass.w, closing.w, e, gained, p));
     precise vec4 offset = mass * leaving;
     NormalTarget rigid;
     rigid.mass = mass;

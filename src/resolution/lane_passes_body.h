@@ -430,7 +430,12 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t subste
     const std::uint32_t going_on = active & bits_of(ULanes(substep) < batch.substeps);
     BodyVelocity velocity = velocities_at(state, batch.offsets);
     BodyWarmStart warm = warm_starts_at(state, batch.indices);
-    const BodyDelta delta = substep > 0 ? integrate_position(batch.delta, warm, velocity, batch.h) : batch.delta;
+    BodyDelta delta = batch.delta;
+    if (substep > 0) {
+        const vec3 falling =
+            falling_acceleration(velocity, warm, batch.properties, batch.load, batch.h, state.parameters);
+        delta = integrate_position(delta, warm, velocity, falling, batch.h);
+    }
     std::uint32_t unusual = 0;
     if (going_on != 0) {
         const vec4 rotation = multiply_quaternions(delta.rotation, batch.rotation);
