@@ -3,6 +3,7 @@
 // together be more than a thousandth above what they were at the start. The potential is zero at y = 0, the ground.
 #include <functional>
 #include <ostream>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -338,6 +339,51 @@ TEST(EnergyOfHeavyBodies, is_not_gained_by_a_plate_that_falls_on_pebbles) {
                 }
             }
         }
+    }
+}
+
+/// Up to four layers of boxes and spheres of 0.3 kg to 3 t, on which one to three blocks of 10 to 10,000 times as much
+/// fall.
+std::vector<BodyDefinition> crushed(std::uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto number = [&](float from, float to) { // the same on every standard library
+        return from + (to - from) * static_cast<float>(random() % 100'000) / 100'000.0f;
+    };
+    std::vector<BodyDefinition> bodies{ground()};
+    float top = 0.0f, heaviest = 0.0f;
+    for (std::uint32_t layers = 1 + random() % 4; layers > 0; --layers) {
+        const int rows = 1 + static_cast<int>(random() % 3), columns = 1 + static_cast<int>(random() % 3);
+        for (int i = 0; i < rows * columns; ++i) {
+            const Vec3 size{number(0.3f, 0.98f), number(0.3f, 1.0f), number(0.3f, 0.98f)};
+            const Vec3 place{static_cast<float>(i % rows), top + 0.5f * size.y, static_cast<float>(i / rows)};
+            const float mass = 0.3f * std::pow(10.0f, number(0.0f, 4.0f));
+            const bool is_round = random() % 3 == 0;
+            bodies.push_back(weighing(is_round ? sphere_at(place, 0.15f) : box_at(place, size), mass));
+            heaviest = std::max(heaviest, mass);
+        }
+        top += 1.0f;
+    }
+    for (std::uint32_t blocks = 1 + random() % 3; blocks > 0; --blocks) {
+        const Vec3 size{number(0.5f, 3.0f), number(0.5f, 3.0f), number(0.5f, 3.0f)};
+        const float reach = 0.5f * length(size);
+        top += number(0.0f, 1.0f) + reach;
+        BodyDefinition block = box_at({number(-0.7f, 1.7f), top, number(-0.7f, 1.7f)}, size);
+        block.pose.rotation = turn({0.6f, 0.0f, 0.8f}, number(0.0f, 3.0f));
+        block.velocity.linear = {number(-1.0f, 1.0f), number(-6.0f, 0.0f), number(-1.0f, 1.0f)};
+        bodies.push_back(weighing(block, heaviest * std::pow(10.0f, number(1.0f, 4.0f))));
+        top += reach;
+    }
+    return bodies;
+}
+
+/// What buckles and slips out under a heavy block must not be faster than the block can throw it.
+TEST(EnergyOfHeavyBodies, is_not_gained_by_what_blocks_crush) {
+    for (std::uint32_t seed = 0; seed < 300; ++seed) {
+        if (seed % k_one_in != 0) continue;
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        World world({}, options_on(DeviceKind::Cpu));
+        expect_no_gain(world, {"crushed", true, 150, [&] { return crushed(seed); }}, 1);
+        EXPECT_EQ(world.report().frozen_bodies, 0u);
     }
 }
 

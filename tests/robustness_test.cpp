@@ -104,6 +104,42 @@ TEST_P(Robustness, speed_is_held_to_its_limits) {
     EXPECT_LT(length(world.velocity(id).angular - Vec3{0.0f, 0.0f, -3.0f}), 1e-4f);
 }
 
+TEST_P(Robustness, what_contacts_throw_is_held_to_the_limits_of_speed) {
+    for (const std::uint32_t seed : {16u, 28u}) { // boxes of a gram had 640 and 760 rad/s at the end of a step
+        World world = make_world();
+        const Settings limits = world.settings();
+        std::vector<BodyId> ids;
+        for (BodyDefinition& body : light_and_heavy(seed)) {
+            if (body.kind == BodyKind::Rigid) body.velocity.linear.y = -20.0f;
+            ids.push_back(world.add(body));
+        }
+        for (int i = 0; i < 20; ++i) {
+            world.step();
+            for (const BodyId id : ids) {
+                EXPECT_LE(length(world.velocity(id).linear), limits.max_linear_speed * (1.0f + 1e-6f)) << i;
+                EXPECT_LE(length(world.velocity(id).angular), limits.max_angular_speed * (1.0f + 1e-6f)) << i;
+            }
+        }
+    }
+}
+
+TEST_P(Robustness, a_pusher_faster_than_the_limit_does_not_take_bodies_beyond_it) {
+    Settings settings = weightless();
+    settings.max_linear_speed = 5.0f;
+    World world = make_world(settings);
+    BodyDefinition pusher = box_at({-1.5f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f}, BodyKind::Kinematic);
+    pusher.velocity.linear = {20.0f, 0.0f, 0.0f};
+    const BodyId pushing = world.add(pusher);
+    const BodyId pushed = world.add(box_at({}));
+    for (int i = 0; i < 12; ++i) {
+        world.step();
+        EXPECT_LE(length(world.velocity(pushed).linear), 5.0f * (1.0f + 1e-6f)) << i;
+        EXPECT_LE(world.pose(pushed).position.x, 5.0f * static_cast<float>(i + 1) / 60.0f + 1e-5f) << i;
+    }
+    EXPECT_NEAR(world.velocity(pushed).linear.x, 5.0f, 1e-5f);
+    EXPECT_NEAR(world.pose(pushing).position.x, -1.5f + 4.0f, 1e-4f) << "it is its caller's and has no limit";
+}
+
 TEST_P(Robustness, fast_bodies_do_not_pass_through_walls) {
     World world = make_world(weightless());
     world.add(box_at({0.0f, 0.0f, 0.0f}, {0.1f, 10.0f, 10.0f}, BodyKind::Static));

@@ -59,7 +59,7 @@ struct Settings {
     float contact_push_speed = 3.0f;    ///< m/s; the fastest that overlap is pushed apart
     float baumgarte = 0.2f;             ///< β of equation 3.17, 0 to 1
     float restitution_threshold = 1.0f; ///< m/s; slower impacts do not bounce
-    float max_linear_speed = 500.0f;    ///< m/s; bodies are held to it
+    float max_linear_speed = 500.0f;    ///< m/s; forces and contacts make no body faster
     float max_angular_speed = 200.0f;   ///< rad/s
     BroadPhase broad_phase = BroadPhase::Auto;     ///< how pairs are found
     SolveOrder solve_order = SolveOrder::Coloured; ///< in what order contacts are solved

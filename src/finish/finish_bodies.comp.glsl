@@ -3,7 +3,7 @@
 // become non-finite stays where it was and is frozen; one that sleeps is left alone. The first one also makes this step's
 // pairs the last step's.
 // Reads: Shapes, Deltas, Counters.
-// Writes: Poses, Loads, Rests, Counters; Velocities where a body is frozen.
+// Writes: Poses, Loads, Rests, Counters; Velocities where a body is frozen or too fast.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -47,8 +47,12 @@ void main()
         moved.flags = wake_flags(moved.flags);
     }
     if (may_rest && measures_anew(moved.flags, parameters)) rests[body] = pack(begin_rest(moved));
-    if (is_finite_motion(moved, unpack(velocities[body]))) {
+    BodyVelocity velocity = unpack(velocities[body]);
+    if (is_finite_motion(moved, velocity)) {
         poses[body] = pack(moved);
+        float top_speed = uintBitsToFloat(counters[k_counter_top_speed]);
+        BodyVelocity limited = limit_speeds(velocity, speed_limits(unpack(shapes[body]), top_speed, parameters));
+        if (limited != velocity) velocities[body] = pack(limited);
     } else {
         pose.flags |= k_body_frozen;
         poses[body] = pack(pose);

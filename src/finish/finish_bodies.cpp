@@ -12,6 +12,7 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
     const Parameters& p = state.parameters;
     state.counters[k_counter_old_pair_count] = state.counters[k_counter_pair_count];
     state.counters[k_counter_pairs_changed] = 0;
+    const float top_speed = uintBitsToFloat(state.counters[k_counter_top_speed]);
     state.parallel(p.body_count, [&](uint body) {
         BodyPose& pose = state.poses[body];
         if (is_asleep(pose)) return;
@@ -29,6 +30,8 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
         if (may_rest && measures_anew(moved.flags, p)) state.rests[body] = begin_rest(moved);
         if (is_finite_motion(moved, state.velocities[body])) {
             pose = moved;
+            BodyVelocity& velocity = state.velocities[body];
+            velocity = limit_speeds(velocity, speed_limits(state.shapes[body], top_speed, p));
         } else {
             pose.flags |= k_body_frozen;
             state.velocities[body] = frozen_velocity();

@@ -172,6 +172,50 @@ inline vec3 falling_acceleration(BodyVelocity velocity, BodyWarmStart warm, Body
     return choose(dot3(by_contacts, by_contacts) < square_limit, falling, vec3(0.0f, 0.0f, 0.0f));
 }
 
+// ---- limits of speed ----
+
+// m/s: what no point of the body is faster than at the end of the step, by its velocity and by forces alone.
+inline float speed_without_contacts(BodyVelocity velocity, BodyShape shape, BodyProperties body, BodyInertia inertia,
+                                    BodyLoad load, Parameters p)
+{
+    float pull = length3(acceleration_by_forces(velocity, body, load, p));
+    float turn = length3(multiply_inertia(inertia, load.torque));
+    precise float speed = length3(velocity.linear) + pull * p.dt +
+                          (length3(velocity.angular) + turn * p.dt) * length3(shape.half_extents);
+    return speed;
+}
+
+// Contacts make no body faster in a step than this many times the fastest of all. A heavy body throws a light one that
+// comes towards it at three times its own speed.
+const float k_most_thrown = 3.0f;
+
+struct SpeedLimits {
+    float linear;  // m/s
+    float angular; // rad/s
+};
+
+// `top_speed`: m/s, the largest speed_without_contacts of all bodies.
+inline SpeedLimits speed_limits(BodyShape shape, float top_speed, Parameters p)
+{
+    precise float thrown = k_most_thrown * top_speed + p.contact_push_speed;
+    precise float turned = thrown * reciprocal(length3(shape.half_extents));
+    SpeedLimits limits;
+    limits.linear = min(p.max_linear_speed, thrown);
+    limits.angular = min(p.max_angular_speed, turned);
+    return limits;
+}
+
+// After contacts. What they cannot push goes as fast as its caller says.
+inline BodyVelocity limit_speeds(BodyVelocity velocity, SpeedLimits limits)
+{
+    bool pushed = velocity.inverse_mass > 0.0f;
+    velocity.linear = choose(pushed, limit_length(velocity.linear, limits.linear), velocity.linear);
+    velocity.angular = choose(pushed, limit_length(velocity.angular, limits.angular), velocity.angular);
+    return velocity;
+}
+
+// ---- a sub-step ----
+
 // Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits; then
 // the warm start. `rotation` is the present one.
 inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm, vec4 rotation, BodyProperties body,

@@ -29,6 +29,8 @@ void integrate_body(uint body, uint substep)
     BodyProperties its_properties = unpack(properties[body]);
     BodyLoad load = unpack(loads[body]);
     if (substep > 0u) {
+        float top_speed = uintBitsToFloat(counters[k_counter_top_speed]);
+        velocity = limit_speeds(velocity, speed_limits(unpack(shapes[body]), top_speed, parameters));
         vec3 falling = falling_acceleration(velocity, warm, its_properties, load, h, parameters);
         delta = integrate_position(delta, warm, velocity, falling, h);
         store_delta(body, delta);

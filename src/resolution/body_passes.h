@@ -23,6 +23,8 @@ inline void integrate_body(CpuState& state, uint body, uint substep) {
     const BodyLoad& load = state.loads[body];
     if (substep > 0) {
         const BodyWarmStart& last = state.warm_starts[body];
+        const float top_speed = uintBitsToFloat(state.counters[k_counter_top_speed]);
+        velocity = limit_speeds(velocity, speed_limits(state.shapes[body], top_speed, state.parameters));
         const vec3 falling = falling_acceleration(velocity, last, properties, load, h, state.parameters);
         delta = integrate_position(delta, last, velocity, falling, h);
     }
