@@ -73,6 +73,7 @@ Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
     p.iterations = plan.iterations;
     p.relax = plan.relax ? 1 : 0;
     p.pair_capacity = plan.pair_capacity;
+    p.manifold_capacity = plan.manifold_capacity;
     p.colour_capacity = plan.colour_capacity;
     p.overflow_capacity = plan.overflow ? 1 : 0;
     p.table_size = plan.table_size;

@@ -60,7 +60,7 @@ void Simulation::restore(const SavedState& saved) {
     settle();
     const auto pair_count = static_cast<uint>(saved.manifolds.size());
     reserve_bodies(saved.table.slot_count());
-    reserve_pairs(pair_count);
+    grow_pairs(pair_count);
     if (!saved.rests.empty()) grow_everywhere(BufferId::Rests, body_capacity);
 
     std::vector<Pair> pairs;
@@ -81,6 +81,7 @@ void Simulation::restore(const SavedState& saved) {
         }
         if (is_active(manifold) && !sleeps(manifold)) constraints.push_back(constraint); // others are not solved
     }
+    grow_manifolds(static_cast<uint>(constraints.size()));
     const auto write_all = [this](BufferId buffer, const auto& records) {
         if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));
     };

@@ -43,8 +43,8 @@ constexpr std::array k_body_buffers{
 };
 
 constexpr std::array k_pair_buffers{
-    BufferId::Pairs,        BufferId::OldManifolds,  BufferId::Manifolds,   BufferId::Uncoloured,
-    BufferId::ManifoldKeys, BufferId::ManifoldOrder, BufferId::Constraints,
+    BufferId::Pairs,      BufferId::OldManifolds, BufferId::Manifolds,
+    BufferId::Uncoloured, BufferId::ManifoldKeys, BufferId::ManifoldOrder,
 };
 
 constexpr std::array k_point_buffers{
@@ -65,6 +65,7 @@ std::string what_did_not_fit(std::span<const uint> counters) {
         if ((reasons & reason) != 0) what += fmt::format("{}{} {}", what.empty() ? "" : ", ", demand, name);
     };
     add(k_fit_pairs, "pairs", counters[k_counter_pair_demand]);
+    add(k_fit_manifolds, "manifolds", counters[k_counter_manifold_count]);
     add(k_fit_colours, "colours", counters[k_counter_colour_demand]);
     add(k_fit_substeps, "sub-steps", counters[k_counter_substep_demand]);
     add(k_fit_hubs, "contacts of hubs", counters[k_counter_hub_manifolds]);
@@ -91,8 +92,9 @@ bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
            plan.in_groups == other.in_groups && plan.singles == other.singles && plan.bounces == other.bounces;
 }
 
-uint with_headroom(uint demand) {
-    return demand + demand / 4;
+/// What comes bit by bit goes on, and gets a `share` more; what comes all at once is what the caller has put together.
+uint with_headroom(uint demand, uint capacity, uint share = 4) {
+    return demand + demand / (demand / 2 > capacity ? 16 : share);
 }
 
 } // namespace
@@ -172,7 +174,7 @@ void Simulation::grow_everywhere(BufferId buffer, std::size_t elements) {
 
 void Simulation::reserve_bodies(uint count) {
     if (count <= body_capacity) return;
-    const uint capacity = std::max(count, with_headroom(body_capacity));
+    const uint capacity = std::max(count, with_headroom(body_capacity, body_capacity));
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
@@ -182,6 +184,11 @@ void Simulation::reserve_bodies(uint count) {
 }
 
 void Simulation::reserve_pairs(uint count) {
+    grow_pairs(count);
+    grow_manifolds(count);
+}
+
+void Simulation::grow_pairs(uint count) {
     if (count > k_most_pairs)
         throw Error(fmt::format("{} pairs of bodies are too many; at most {} are allowed", count, k_most_pairs));
     const uint capacity = std::max(count, plan.pair_capacity);
@@ -194,6 +201,12 @@ void Simulation::reserve_pairs(uint count) {
     plan.pair_capacity = capacity; // only now: a buffer may have no room
     plan.table_size = table_size;
     if (plan.watch != ContactWatch::None) reserve_reports();
+}
+
+void Simulation::grow_manifolds(uint count) {
+    const uint capacity = std::max(count, plan.manifold_capacity);
+    grow_everywhere(BufferId::Constraints, capacity);
+    plan.manifold_capacity = capacity;
 }
 
 void Simulation::reserve_reports() {
@@ -444,7 +457,7 @@ void Simulation::collect_reports(Ticket ticket, std::span<const uint> counters) 
         newest.reports.resize(count);
         device.read(
             std::array{ReadRequest{BufferId::ContactReports, count * sizeof(ContactReport), newest.reports.data()}});
-        plan.report_room = with_headroom(count);
+        plan.report_room = with_headroom(count, plan.report_room);
     }
     if (count == 0) reports.pop_back();
 }
@@ -473,17 +486,18 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     window_steps = window_colours = window_substeps = window_hub_manifolds = 0;
 }
 
-void Simulation::make_room_for_pairs(uint demand) {
+void Simulation::make_room(void (Simulation::*grow)(uint), uint demand, uint wanted) {
     try {
-        reserve_pairs(with_headroom(demand));
+        (this->*grow)(wanted);
     } catch (const Error&) {
-        reserve_pairs(demand);
+        (this->*grow)(demand);
     }
 }
 
 void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
+    const uint manifolds = counters[k_counter_manifold_count];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
     if ((reasons & ~k_fit_graph) != 0) pairs_last.begin_anew();
     graph_lasts.begin_anew();
@@ -511,8 +525,15 @@ void Simulation::redo(std::span<const uint> counters) {
         if ((reasons & k_fit_groups) != 0)
             throw Error("this GPU did not run the work groups of a launch side by side, though it did on trial, "
                         "so a step went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them wait for none");
-        if ((reasons & k_fit_pairs) != 0) make_room_for_pairs(pair_demand);
-        if ((reasons & k_fit_hubs) != 0) reserve_hub_manifolds(with_headroom(hub_manifolds));
+        if ((reasons & k_fit_pairs) != 0)
+            make_room(&Simulation::grow_pairs, pair_demand, with_headroom(pair_demand, plan.pair_capacity));
+        if ((reasons & k_fit_manifolds) != 0) { // a larger share: it is a smaller record, and each growth costs steps
+            const uint wanted = with_headroom(manifolds, plan.manifold_capacity, 2);
+            make_room(&Simulation::grow_manifolds, manifolds, std::min(wanted, plan.pair_capacity));
+        }
+        if ((reasons & k_fit_hubs) != 0)
+            make_room(&Simulation::reserve_hub_manifolds, hub_manifolds,
+                      with_headroom(hub_manifolds, plan.hub_capacity));
     } catch (const Error&) {
         // The world is left as it was before these steps, but for what the caller has changed.
         for (const Pending& entry : again) {

@@ -126,7 +126,10 @@ private:
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
-    void make_room_for_pairs(uint demand);
+    void grow_pairs(uint count);
+    void grow_manifolds(uint count);
+    /// For what is wanted, or at least for the demand.
+    void make_room(void (Simulation::*grow)(uint), uint demand, uint wanted);
     void redo(std::span<const uint> counters);
     void follow_demand(std::span<const uint> counters);
     void reserve_hub_manifolds(uint count);

@@ -25,6 +25,7 @@ struct StepPlan {
     bool searches = true;       ///< the search for pairs gets launches, which it may turn out not to need
     bool makes_graph = true;    ///< the constraint graph gets launches; without them it has to be the last step's
     uint pair_capacity = 0;     ///< room in the buffers that have a record a pair
+    uint manifold_capacity = 0; ///< room for the manifolds that are solved
     uint near_pairs = 1u << 20; ///< whose records are quick to reach in any order, as they lie close together
     uint table_size = 0;        ///< slots of PairTable
     uint colour_capacity = 0;   ///< colours that get launches

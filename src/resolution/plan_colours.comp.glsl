@@ -6,8 +6,8 @@
 // Reads: ColourOffsets, Counters.
 // Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.
-// Overflow: more colours or sub-steps than the host has launches for, and more manifolds of hubs than it has room for,
-// are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by this step or an
+// Overflow: more colours or sub-steps than the host has launches for, and more manifolds, or manifolds of hubs, than it
+// has room for, are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by this step or an
 // earlier one, all launches are empty.
 #include "state/dispatch.shared.glsl"
 #include "resolution/island.shared.glsl"
@@ -34,6 +34,8 @@ void main()
     if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;
     if (launches && substeps > parameters.substep_capacity) did_not_fit |= k_fit_substeps;
+    uint awake_count = counters[k_counter_manifold_count] - counters[k_counter_sleeping_manifolds];
+    if (awake_count > parameters.manifold_capacity) did_not_fit |= k_fit_manifolds;
     if (counters[k_counter_hub_manifolds] > (launches ? parameters.hub_capacity : 0u)) did_not_fit |= k_fit_hubs;
 
     uint on = did_not_fit == 0u ? 1u : 0u;
@@ -43,7 +45,6 @@ void main()
     if (colour != 0u) return;
     uint group_count = launches ? count_groups(parameters.body_count) : parameters.body_count;
     dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);
-    uint awake_count = counters[k_counter_manifold_count] - counters[k_counter_sleeping_manifolds];
     dispatches[k_dispatch_manifolds] = groups_for(on * awake_count, k_group_size);
     dispatches[k_dispatch_islands] = groups_for(on * group_count, 1u);
     dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1u);

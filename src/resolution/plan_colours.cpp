@@ -21,12 +21,13 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     if (launches && (colours > p.colour_capacity || (overflow_count > 0 && p.overflow_capacity == 0)))
         did_not_fit |= k_fit_colours;
     if (launches && substeps > p.substep_capacity) did_not_fit |= k_fit_substeps;
+    counters[k_counter_manifold_count] -= counters[k_counter_sleeping_manifolds];
+    if (counters[k_counter_manifold_count] > p.manifold_capacity) did_not_fit |= k_fit_manifolds;
     if (counters[k_counter_hub_manifolds] > (launches ? p.hub_capacity : 0)) did_not_fit |= k_fit_hubs;
 
     const uint on = did_not_fit == 0 ? 1 : 0;
     const uint group_count = launches ? count_groups(p.body_count) : p.body_count;
     state.dispatches[k_dispatch_bodies] = groups_for(on * p.body_count, k_group_size);
-    counters[k_counter_manifold_count] -= counters[k_counter_sleeping_manifolds];
     state.dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
     state.dispatches[k_dispatch_islands] = groups_for(on * group_count, 1);
     for (uint colour = 0; colour < k_max_colours; ++colour) {

@@ -100,6 +100,7 @@ const uint k_fit_reports = 32u; // the step itself is done; those behind it wait
 const uint k_fit_groups = 64u; // groups that wait for each other were not run side by side: the step went wrong
 const uint k_fit_strays = 128u; // no room is missing: the step had to search for pairs, and had no launches for it
 const uint k_fit_graph = 256u; // no room is missing: the step had to make its constraint graph, and had no launches for it
+const uint k_fit_manifolds = 512u; // that are solved
 
 // In k_counter_graph_due: nor will this step's be the next one's. A body that has become a hub keeps the colours of its old
 // contacts for one step.

@@ -258,5 +258,5 @@ struct Parameters {
     uint rest_steps;     // after which a body may sleep; 0 where none ever does
     float rest_distance; // m, from where the rest began; what goes further does not rest
     float rest_way;      // m, in a step; nor does what moves more
-    uint reserved;
+    uint manifold_capacity; // of those that are solved
 };
