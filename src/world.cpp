@@ -313,7 +313,7 @@ void World::add_angular_impulse(BodyId id, Vec3 impulse) {
     impl_->refresh();
     BodyTable& table = impl_->table;
     const BodyInertia inertia =
-        world_inertia(table.poses[slot].rotation, table.properties[slot].inverse_inertia, true, false, 0);
+        world_inertia(table.poses[slot].rotation, table.properties[slot].inverse_inertia, k_trait_movable, 0);
     const vec3 angular = table.velocities[slot].angular + multiply_inertia(inertia, to_glm(impulse));
     check_finite(from_glm(angular), name_of("add_angular_impulse", id), "angular velocity after the impulse");
     impl_->thaw(slot);

@@ -165,8 +165,8 @@ TEST(Math, world_inertia_is_the_body_inertia_turned) {
         const vec3 v = samples.vector();
         const glm::dmat3 r = matrix_of(q);
         const glm::dvec3 expected = r * (glm::dvec3(inverse) * (glm::transpose(r) * glm::dvec3(v)));
-        ASSERT_LT(distance(multiply_inertia(world_inertia(q, inverse, true, false, 8), v), expected), 3e-6);
-        ASSERT_EQ(multiply_inertia(world_inertia(q, inverse, false, false, 8), v), vec3(0.0f));
+        ASSERT_LT(distance(multiply_inertia(world_inertia(q, inverse, k_trait_movable, 8), v), expected), 3e-6);
+        ASSERT_EQ(multiply_inertia(world_inertia(q, inverse, 0, 8), v), vec3(0.0f));
     }
 }
 

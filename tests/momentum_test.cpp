@@ -85,6 +85,28 @@ TEST_P(Momentum, of_turning_is_kept_when_many_bodies_collide) {
     }
 }
 
+/// Each pair is pushed apart, so that the outer ones go at several times the speed of one push.
+TEST_P(Momentum, is_kept_when_overlap_is_pushed_apart) {
+    for (const float last_mass : {1.0f, 50.0f}) {
+        SCOPED_TRACE(last_mass);
+        World world = make_world(weightless());
+        std::vector<BodyId> ids;
+        for (int i = 0; i < 5; ++i) {
+            const BodyDefinition box = with_material(box_at({0.6f * static_cast<float>(i), 0.0f, 0.0f}), 0.0f);
+            ids.push_back(world.add(weighing(box, i == 4 ? last_mass : 1.0f)));
+        }
+        world.step(30);
+        glm::dvec3 sum{};
+        double scale = 0.0;
+        for (const BodyId id : ids) {
+            sum += linear_momentum(world, id);
+            scale += glm::length(linear_momentum(world, id));
+        }
+        EXPECT_GT(scale, 5.0) << "they must have parted";
+        EXPECT_LT(glm::length(sum), 1e-5 * scale);
+    }
+}
+
 TEST_P(Momentum, is_kept_by_a_hub) {
     World world = make_world(with_hubs(weightless()));
     std::vector<BodyDefinition> bodies = plate_of(7);

@@ -86,6 +86,64 @@ TEST_P(Restitution, a_ball_that_bounces_for_ever_keeps_its_energy) {
     }
 }
 
+TEST_P(Restitution, a_gravity_scale_of_what_stands_changes_nothing) {
+    World world = make_world();
+    BodyDefinition floor = with_material(ground(), 0.0f, 1.0f);
+    floor.gravity_scale = 100.0f;
+    world.add(floor);
+    const BodyId id = world.add(with_material(sphere_at({0.0f, 2.5f, 0.0f}), 0.0f, 1.0f));
+    for (int i = 0; i < 300; ++i) {
+        world.step();
+        const double speed = length(world.velocity(id).linear);
+        const double energy = k_gravity * (world.pose(id).position.y - 0.5) + 0.5 * speed * speed;
+        ASSERT_NEAR(energy / (2.0 * k_gravity), 1.0, 1e-4) << "step " << i;
+    }
+}
+
+TEST_P(Restitution, a_damped_ball_leaves_no_faster_than_it_came) {
+    constexpr float k_damping = 100.0f, k_speed = 10.0f;
+    for (int place = 0; place < 8; ++place) { // where in the step it meets the ground
+        SCOPED_TRACE(place);
+        Settings settings = weightless();
+        settings.gravity.y = -0.1f;
+        settings.dt = 1.0f / 480.0f;
+        settings.substeps = settings.max_substeps = 1;
+        World world = make_world(settings);
+        world.add(with_material(ground(), 0.0f, 1.0f));
+        const float height = k_speed * settings.dt * static_cast<float>(place) / 8.0f;
+        BodyDefinition ball = with_material(sphere_at({0.0f, 0.5f + height, 0.0f}), 0.0f, 1.0f);
+        ball.velocity.linear.y = -k_speed;
+        ball.linear_damping = k_damping;
+        const BodyId id = world.add(ball);
+        world.step();
+        // v / (1 + h c), and gravity's h g
+        EXPECT_LE(length(world.velocity(id).linear), k_speed / (1.0f + settings.dt * k_damping) + 1e-3f);
+    }
+}
+
+/// On the ground the first one turns round, hits the next, and so on, all in one step.
+TEST_P(Restitution, ever_lighter_balls_throw_the_last_one_far) {
+    World world = make_world();
+    world.add(with_material(ground(), 0.0f, 1.0f));
+    BodyId last{};
+    float mass = 1.0f, y = 0.5f + 1.7f;
+    for (int i = 0; i < 3; ++i) {
+        last = world.add(weighing(with_material(sphere_at({0.0f, y, 0.0f}), 0.0f, 1.0f), mass));
+        mass *= 0.3f;
+        y += 1.0f;
+    }
+    const double start = mechanical_energy(world);
+    float fastest_down = 0.0f, fastest_up = 0.0f;
+    for (int i = 0; i < 60; ++i) {
+        world.step();
+        EXPECT_NEAR(mechanical_energy(world), start, 0.005 * start) << i;
+        fastest_down = std::min(fastest_down, world.velocity(last).linear.y);
+        fastest_up = std::max(fastest_up, world.velocity(last).linear.y);
+    }
+    // The second is thrown at v (4 / 1.3 - 1) = 2.077 v, and the last at (2 / 1.3) (2.077 + 1) v - v.
+    EXPECT_NEAR(fastest_up / -fastest_down, 3.734f, 0.04f);
+}
+
 TEST_P(Restitution, without_it_nothing_bounces) {
     for (const BodyDefinition& body : {sphere_at({}), box_at({})}) {
         for (const float drop : {1.0f, 2.0f, 3.3f}) {

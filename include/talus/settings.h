@@ -56,7 +56,7 @@ struct Settings {
     std::uint32_t iterations = 1;       ///< solver passes: a sub-step (soft) or a step (Baumgarte; set about 10 there)
     float contact_hertz = 1000.0f;      ///< soft: stiffness of a contact, Hz; capped at an eighth of the sub-step rate
     float contact_damping_ratio = 5.0f; ///< soft: damping of a contact
-    float contact_push_speed = 3.0f;    ///< m/s; the fastest that overlap is pushed apart
+    float contact_push_speed = 3.0f;    ///< m/s; the fastest that two bodies that overlap are pushed apart
     float baumgarte = 0.2f;             ///< β of equation 3.17, 0 to 1
     float restitution_threshold = 1.0f; ///< m/s; slower impacts do not bounce
     float max_linear_speed = 500.0f;    ///< m/s; forces and contacts make no body faster

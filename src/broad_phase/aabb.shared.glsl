@@ -16,6 +16,14 @@ inline bool is_sensor(BodyShape shape) { return (shape.type & k_sensor_bit) != 0
 inline bool is_sphere(BodyShape shape) { return (shape.type & 255u) == k_shape_sphere; }
 inline bool is_mover(BodyShape shape) { return is_movable(shape) || kind_of(shape) == k_kind_kinematic; }
 
+// Of BodyInertia, but for those that islands and hubs add.
+inline uint traits_of_body(BodyShape shape, BodyPose pose)
+{
+    bool thawed = (pose.flags & k_body_frozen) == 0u;
+    return choose(is_movable(shape) && thawed, k_trait_movable, 0u) | choose(is_mover(shape) && thawed, k_trait_moves, 0u) |
+           choose(is_sphere(shape), k_trait_round, 0u);
+}
+
 // Whether a body is where the caller has just put it. One that never moves is there anyway.
 inline bool is_placed(BodyPose pose, BodyShape shape)
 {

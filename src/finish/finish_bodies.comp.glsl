@@ -50,8 +50,7 @@ void main()
     BodyVelocity velocity = unpack(velocities[body]);
     if (is_finite_motion(moved, velocity)) {
         poses[body] = pack(moved);
-        float top_speed = uintBitsToFloat(counters[k_counter_top_speed]);
-        BodyVelocity limited = limit_speeds(velocity, speed_limits(unpack(shapes[body]), top_speed, parameters));
+        BodyVelocity limited = limit_speeds(velocity, parameters);
         if (limited != velocity) velocities[body] = pack(limited);
     } else {
         pose.flags |= k_body_frozen;

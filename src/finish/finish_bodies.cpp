@@ -12,7 +12,6 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
     const Parameters& p = state.parameters;
     state.counters[k_counter_old_pair_count] = state.counters[k_counter_pair_count];
     state.counters[k_counter_pairs_changed] = 0;
-    const float top_speed = uintBitsToFloat(state.counters[k_counter_top_speed]);
     state.parallel(p.body_count, [&](uint body) {
         BodyPose& pose = state.poses[body];
         if (is_asleep(pose)) return;
@@ -31,7 +30,7 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
         if (is_finite_motion(moved, state.velocities[body])) {
             pose = moved;
             BodyVelocity& velocity = state.velocities[body];
-            velocity = limit_speeds(velocity, speed_limits(state.shapes[body], top_speed, p));
+            velocity = limit_speeds(velocity, p);
         } else {
             pose.flags |= k_body_frozen;
             state.velocities[body] = frozen_velocity();

@@ -2,7 +2,7 @@
 // What the resolution does to one body: inertia, forces, gyroscopic torque, positions.
 
 // R diag(1/I) R^T, with R's columns the body's axes.
-inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movable, bool is_round, uint substeps)
+inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, uint traits, uint substeps)
 {
     Axes r = rotation_axes(rotation);
     vec3 d = inverse_inertia;
@@ -12,7 +12,7 @@ inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movab
     precise float xy = r.x.x * r.x.y * d.x + r.y.x * r.y.y * d.y + r.z.x * r.z.y * d.z;
     precise float xz = r.x.x * r.x.z * d.x + r.y.x * r.y.z * d.y + r.z.x * r.z.z * d.z;
     precise float yz = r.x.y * r.x.z * d.x + r.y.y * r.y.z * d.y + r.z.y * r.z.z * d.z;
-    float on = movable ? 1.0f : 0.0f;
+    float on = (traits & k_trait_movable) != 0u ? 1.0f : 0.0f;
     BodyInertia m;
     m.xx = on * xx;
     m.yy = on * yy;
@@ -20,7 +20,7 @@ inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, bool movab
     m.xy = on * xy;
     m.xz = on * xz;
     m.yz = on * yz;
-    m.traits = (movable ? k_trait_movable : 0u) | (is_round ? k_trait_round : 0u);
+    m.traits = traits;
     m.substeps = substeps;
     return m;
 }
@@ -158,8 +158,7 @@ inline vec3 acceleration_by_forces(BodyVelocity velocity, BodyProperties body, B
 // all: what brushes along a wall in its fall still falls.
 const float k_falling_share = 0.125f;
 
-// m/s², of a body that falls freely in this sub-step, by forces and by damping, of which 1 / (1 + h c) is the implicit
-// form. 0 of one that contacts hold.
+// m/s², by forces, of a body that falls freely in this sub-step. 0 of one that contacts hold.
 inline vec3 falling_acceleration(BodyVelocity velocity, BodyWarmStart warm, BodyProperties body, BodyLoad load, float h,
                                  Parameters p)
 {
@@ -167,51 +166,28 @@ inline vec3 falling_acceleration(BodyVelocity velocity, BodyWarmStart warm, Body
     precise vec3 by_contacts = warm.linear + (velocity.linear - warm.linear_before);
     precise float limit = k_falling_share * h;
     precise float square_limit = limit * limit * dot3(by_forces, by_forces);
-    float damping = choose(velocity.inverse_mass > 0.0f, body.linear_damping, 0.0f); // none of a kinematic body
-    precise vec3 falling = by_forces - velocity.linear * damping;
-    return choose(dot3(by_contacts, by_contacts) < square_limit, falling, vec3(0.0f, 0.0f, 0.0f));
+    return choose(dot3(by_contacts, by_contacts) < square_limit, by_forces, vec3(0.0f, 0.0f, 0.0f));
 }
 
 // ---- limits of speed ----
 
-// m/s: what no point of the body is faster than at the end of the step, by its velocity and by forces alone.
-inline float speed_without_contacts(BodyVelocity velocity, BodyShape shape, BodyProperties body, BodyInertia inertia,
-                                    BodyLoad load, Parameters p)
-{
-    float pull = length3(acceleration_by_forces(velocity, body, load, p));
-    float turn = length3(multiply_inertia(inertia, load.torque));
-    precise float speed = length3(velocity.linear) + pull * p.dt +
-                          (length3(velocity.angular) + turn * p.dt) * length3(shape.half_extents);
-    return speed;
-}
-
-// Contacts make no body faster in a step than this many times the fastest of all. A heavy body throws a light one that
-// comes towards it at three times its own speed.
-const float k_most_thrown = 3.0f;
-
-struct SpeedLimits {
-    float linear;  // m/s
-    float angular; // rad/s
-};
-
-// `top_speed`: m/s, the largest speed_without_contacts of all bodies.
-inline SpeedLimits speed_limits(BodyShape shape, float top_speed, Parameters p)
-{
-    precise float thrown = k_most_thrown * top_speed + p.contact_push_speed;
-    precise float turned = thrown * reciprocal(length3(shape.half_extents));
-    SpeedLimits limits;
-    limits.linear = min(p.max_linear_speed, thrown);
-    limits.angular = min(p.max_angular_speed, turned);
-    return limits;
-}
-
 // After contacts. What they cannot push goes as fast as its caller says.
-inline BodyVelocity limit_speeds(BodyVelocity velocity, SpeedLimits limits)
+inline BodyVelocity limit_speeds(BodyVelocity velocity, Parameters p)
 {
     bool pushed = velocity.inverse_mass > 0.0f;
-    velocity.linear = choose(pushed, limit_length(velocity.linear, limits.linear), velocity.linear);
-    velocity.angular = choose(pushed, limit_length(velocity.angular, limits.angular), velocity.angular);
+    velocity.linear = choose(pushed, limit_length(velocity.linear, p.max_linear_speed), velocity.linear);
+    velocity.angular = choose(pushed, limit_length(velocity.angular, p.max_angular_speed), velocity.angular);
     return velocity;
+}
+
+// What a limit takes away is no impulse of contacts: the next sub-step starts from those as they are.
+inline BodyWarmStart leave_out(BodyWarmStart warm, BodyVelocity before, BodyVelocity after)
+{
+    precise vec3 linear = warm.linear_before + (after.linear - before.linear);
+    precise vec3 angular = warm.angular_before + (after.angular - before.angular);
+    warm.linear_before = linear;
+    warm.angular_before = angular;
+    return warm;
 }
 
 // ---- a sub-step ----

@@ -29,8 +29,9 @@ void integrate_body(uint body, uint substep)
     BodyProperties its_properties = unpack(properties[body]);
     BodyLoad load = unpack(loads[body]);
     if (substep > 0u) {
-        float top_speed = uintBitsToFloat(counters[k_counter_top_speed]);
-        velocity = limit_speeds(velocity, speed_limits(unpack(shapes[body]), top_speed, parameters));
+        BodyVelocity limited = limit_speeds(velocity, parameters);
+        warm = leave_out(warm, velocity, limited);
+        velocity = limited;
         vec3 falling = falling_acceleration(velocity, warm, its_properties, load, h, parameters);
         delta = integrate_position(delta, warm, velocity, falling, h);
         store_delta(body, delta);

@@ -21,17 +21,18 @@ inline void integrate_body(CpuState& state, uint body, uint substep) {
     BodyDelta& delta = state.deltas[body];
     const BodyProperties& properties = state.properties[body];
     const BodyLoad& load = state.loads[body];
+    BodyWarmStart warm = state.warm_starts[body];
     if (substep > 0) {
-        const BodyWarmStart& last = state.warm_starts[body];
-        const float top_speed = uintBitsToFloat(state.counters[k_counter_top_speed]);
-        velocity = limit_speeds(velocity, speed_limits(state.shapes[body], top_speed, state.parameters));
-        const vec3 falling = falling_acceleration(velocity, last, properties, load, h, state.parameters);
-        delta = integrate_position(delta, last, velocity, falling, h);
+        const BodyVelocity limited = limit_speeds(velocity, state.parameters);
+        warm = leave_out(warm, velocity, limited);
+        velocity = limited;
+        const vec3 falling = falling_acceleration(velocity, warm, properties, load, h, state.parameters);
+        delta = integrate_position(delta, warm, velocity, falling, h);
     }
     if (substep == inertia.substeps) return;
 
     const vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
-    BodyWarmStart warm = gather_impulses(state.warm_starts[body], velocity);
+    warm = gather_impulses(warm, velocity);
     velocity = integrate_velocity(velocity, warm, rotation, properties, inertia, load, is_movable(state.shapes[body]),
                                   h, state.parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {

@@ -56,6 +56,7 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     const BodyDelta delta_b = shifted(state.deltas[c.body_b], state.warm_starts[c.body_b]);
     const float h = substep_length(c.substeps, state.parameters);
     const auto falling = [&](uint body, const BodyVelocity& velocity) {
+        if ((state.inertias[body].traits & k_trait_moves) == 0) return vec3(0.0f, 0.0f, 0.0f);
         return falling_acceleration(velocity, state.warm_starts[body], state.properties[body], state.loads[body], h,
                                     state.parameters);
     };

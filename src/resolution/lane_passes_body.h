@@ -390,7 +390,6 @@ struct BodyBatch {
     BodyInertia inertia;
     BodyProperties properties;
     BodyLoad load;
-    SpeedLimits limits;
     BodyDelta delta; ///< the records have it, too
 };
 
@@ -420,9 +419,6 @@ inline void take_bodies(const CpuState& state, const std::uint32_t* indices, std
     batch.rotation = all_of(gather(state.poses.data, batch.offsets, 1));
     batch.properties = properties_at(state, batch.indices);
     batch.load = loads_at(state, batch.indices);
-    const auto shape = gather(state.shapes.data, batch.indices, 0);
-    const float top_speed = engine::uintBitsToFloat(state.counters.data[k_counter_top_speed]);
-    batch.limits = speed_limits({three_of(shape), floatBitsToUint(shape.w)}, Lanes(top_speed), state.parameters);
     batch.delta = deltas_at(state, batch.offsets);
 }
 
@@ -436,7 +432,9 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t subste
     BodyWarmStart warm = warm_starts_at(state, batch.indices);
     BodyDelta delta = batch.delta;
     if (substep > 0) {
-        velocity = limit_speeds(velocity, batch.limits);
+        const BodyVelocity limited = limit_speeds(velocity, state.parameters);
+        warm = leave_out(warm, velocity, limited);
+        velocity = limited;
         const vec3 falling =
             falling_acceleration(velocity, warm, batch.properties, batch.load, batch.h, state.parameters);
         delta = integrate_position(delta, warm, velocity, falling, batch.h);

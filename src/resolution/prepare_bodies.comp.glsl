@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet. The
-// fastest of all says how fast contacts may make others.
+// One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
 // Where its island sleeps it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands.
-// Reads: Properties, Loads, Shapes, Substeps, IslandGroups, BodyColours.
-// Writes: Inertias, Deltas, WarmStarts, ToldLoads (none yet), Counters; Poses (flags) and Velocities where a body falls
-// asleep or wakes.
+// Reads: Properties, Shapes, Substeps, IslandGroups, BodyColours.
+// Writes: Inertias, Deltas, WarmStarts, ToldLoads (none yet); Poses (flags), Velocities and Counters where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -20,7 +18,6 @@ layout(local_size_x = 64) in;
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
-layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
@@ -31,16 +28,14 @@ layout(std430) writeonly buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) writeonly buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 
-shared uint top_speed; // of the group, as in Counters
-
-// Where the body can be hit or hit others, what it brings along: speed_without_contacts.
-float prepare_body(uint body)
+void main()
 {
+    uint body = item_index();
+    if (body >= parameters.body_count) return;
     told_loads[k_told_words * body + k_told_mass] = 0u;
     told_loads[k_told_words * body + k_told_height] = 0u;
     BodyPose pose = unpack(poses[body]);
-    BodyShape shape = unpack(shapes[body]);
-    bool asleep = parameters.rest_steps > 0u && is_movable(shape) && substeps[body] == 0u;
+    bool asleep = parameters.rest_steps > 0u && is_movable(unpack(shapes[body])) && substeps[body] == 0u;
     uint flags = sleep_flags(pose.flags, asleep);
     if (flags != pose.flags) {
         pose.flags = flags;
@@ -50,29 +45,14 @@ float prepare_body(uint body)
     if (asleep) {
         inertias[body] = pack(no_inertia());
         atomicAdd(counters[k_counter_sleeping_bodies], 1u);
-        return 0.0;
+        return;
     }
-    bool movable = is_movable(shape) && (pose.flags & k_body_frozen) == 0u;
     uint its_substeps = args.x == 1u ? substeps[body] : counters[k_counter_launched_substeps];
-    BodyProperties its_properties = unpack(properties[body]);
-    BodyInertia inertia =
-        world_inertia(pose.rotation, its_properties.inverse_inertia, movable, is_sphere(shape), its_substeps);
+    BodyInertia inertia = world_inertia(pose.rotation, unpack(properties[body]).inverse_inertia,
+                                        traits_of_body(unpack(shapes[body]), pose), its_substeps);
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
-    BodyVelocity velocity = unpack(velocities[body]);
     inertias[body] = pack(inertia);
     deltas[body] = pack(no_delta());
-    warm_starts[body] = pack(no_warm_start(velocity));
-    if (!is_mover(shape)) return 0.0;
-    return speed_without_contacts(velocity, shape, its_properties, inertia, unpack(loads[body]), parameters);
-}
-
-void main()
-{
-    uint body = item_index();
-    if (gl_LocalInvocationID.x == 0u) top_speed = 0u;
-    barrier();
-    if (body < parameters.body_count) atomicMax(top_speed, floatBitsToUint(prepare_body(body)));
-    barrier();
-    if (gl_LocalInvocationID.x == 0u) atomicMax(counters[k_counter_top_speed], top_speed);
+    warm_starts[body] = pack(no_warm_start(unpack(velocities[body])));
 }

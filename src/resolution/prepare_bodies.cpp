@@ -22,21 +22,14 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
             std::atomic_ref(state.counters[k_counter_sleeping_bodies]).fetch_add(1);
             return;
         }
-        const BodyShape& shape = state.shapes[body];
-        const BodyProperties& properties = state.properties[body];
-        const bool movable = is_movable(shape) && (pose.flags & k_body_frozen) == 0;
         const uint substeps = launch.args[0] == 1 ? state.substeps[body] : state.counters[k_counter_launched_substeps];
-        BodyInertia& inertia = state.inertias[body];
-        inertia = world_inertia(pose.rotation, properties.inverse_inertia, movable, is_sphere(shape), substeps);
-        inertia.traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);
-        if (launch.args[1] == 1 && state.island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
-        const BodyVelocity& velocity = state.velocities[body];
+        state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia,
+                                             traits_of_body(state.shapes[body], pose), substeps);
+        state.inertias[body].traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);
+        if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
+            state.inertias[body].traits |= k_trait_grouped;
         state.deltas[body] = no_delta();
-        state.warm_starts[body] = no_warm_start(velocity);
-        if (!is_mover(shape)) return;
-        const float speed =
-            speed_without_contacts(velocity, shape, properties, inertia, state.loads[body], state.parameters);
-        raise_to(state.counters[k_counter_top_speed], floatBitsToUint(speed));
+        state.warm_starts[body] = no_warm_start(state.velocities[body]);
     });
 }
 

@@ -23,7 +23,9 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
 void tell_load(const CpuState& state, const LoadBelow& load, uint height) {
     uint* const told = &state.told_loads[k_told_words * load.body];
     std::atomic_ref(told[k_told_mass]).fetch_add(load.mass, std::memory_order_relaxed);
-    raise_to(told[k_told_height], height);
+    const std::atomic_ref highest(told[k_told_height]);
+    for (uint before = highest.load(); before < height && !highest.compare_exchange_weak(before, height);) {
+    }
 }
 
 static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {

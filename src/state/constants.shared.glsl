@@ -37,6 +37,7 @@ const uint k_trait_movable = 1u; // contacts can push the body
 const uint k_trait_round = 2u;   // a sphere: where it is touched does not turn with it
 const uint k_trait_hub = 4u;     // a hub; in a constraint: of whose mass this is a share
 const uint k_trait_grouped = 8u; // of an island that a work group solves
+const uint k_trait_moves = 16u;  // it is rigid or kinematic, and not frozen
 const uint k_trait_whole_hub = 256u; // only in a constraint: of a hub, in a colour where that is a body as others are
 
 // BodyProperties::combine
@@ -87,8 +88,7 @@ const uint k_counter_searched = 24u;       // 1 where this step had to search
 const uint k_counter_singles = 25u; // islands with too many bodies to share a work group, and few enough for one of their own
 const uint k_counter_graph_due = 26u; // not 0 where the last step's constraint graph is not this one's
 const uint k_counter_graph_was_due = 27u; // 1 where this step had to make its graph
-const uint k_counter_top_speed = 28u; // the bits of a float, m/s: of all bodies, see speed_without_contacts
-const uint k_counter_words = 29u;
+const uint k_counter_words = 28u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;

@@ -2,7 +2,6 @@
 // The state as the CPU twins see it: one typed array a buffer, the step's constants, and the threads to run loops on.
 #pragma once
 
-#include <atomic>
 #include <memory>
 
 #include "device/cpu/cpu_threads.h"
@@ -19,13 +18,6 @@ template <typename T> struct Array {
 
 /// Items that make a loop worth a second thread, where one item is a body or a pair.
 inline constexpr uint k_parallel_grain = 256;
-
-/// Makes a word at least `value`, as atomicMax does.
-inline void raise_to(uint& word, uint value) {
-    const std::atomic_ref shared(word);
-    for (uint before = shared.load(std::memory_order_relaxed); before < value;)
-        if (shared.compare_exchange_weak(before, value, std::memory_order_relaxed)) return;
-}
 
 struct CpuState {
 #define X(block, field, element, layout, role) Array<element> field;
