@@ -494,6 +494,13 @@ void Simulation::make_room(void (Simulation::*grow)(uint), uint demand, uint wan
     }
 }
 
+uint Simulation::likely_manifolds(uint pair_count) const {
+    const std::uint64_t pairs_before = report().pairs;
+    if (pairs_before == 0) return 0;
+    const auto likely = static_cast<uint>(std::uint64_t{solved_manifolds()} * pair_count / pairs_before);
+    return std::min(with_headroom(likely, plan.manifold_capacity), plan.pair_capacity);
+}
+
 void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
@@ -525,8 +532,10 @@ void Simulation::redo(std::span<const uint> counters) {
         if ((reasons & k_fit_groups) != 0)
             throw Error("this GPU did not run the work groups of a launch side by side, though it did on trial, "
                         "so a step went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them wait for none");
-        if ((reasons & k_fit_pairs) != 0)
+        if ((reasons & k_fit_pairs) != 0) {
             make_room(&Simulation::grow_pairs, pair_demand, with_headroom(pair_demand, plan.pair_capacity));
+            make_room(&Simulation::grow_manifolds, 0, likely_manifolds(pair_demand));
+        }
         if ((reasons & k_fit_manifolds) != 0) { // a larger share: it is a smaller record, and each growth costs steps
             const uint wanted = with_headroom(manifolds, plan.manifold_capacity, 2);
             make_room(&Simulation::grow_manifolds, manifolds, std::min(wanted, plan.pair_capacity));

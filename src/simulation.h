@@ -128,6 +128,8 @@ private:
     void collect_reports(Ticket, std::span<const uint> counters);
     void grow_pairs(uint count);
     void grow_manifolds(uint count);
+    /// Room for them, if as many pairs touch as in the newest finished step, so that not each growth brings another.
+    uint likely_manifolds(uint pair_count) const;
     /// For what is wanted, or at least for the demand.
     void make_room(void (Simulation::*grow)(uint), uint demand, uint wanted);
     void redo(std::span<const uint> counters);
