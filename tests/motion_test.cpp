@@ -84,7 +84,7 @@ TEST_P(Motion, half_the_step_halves_the_error_of_damping) {
         // v' = -g - v from rest: y = -g exp(-1) after 1 s.
         return std::abs(world.pose(id).position.y + k_gravity * std::exp(-1.0f));
     };
-    // First order. Rounding, some 0.02 mm, is a hundredth of these errors of 11 to 2.7 mm at most.
+    // First order. Rounding, some 0.02 mm, is a three-hundredth of these errors of 26 to 6.5 mm at most.
     const float coarse = error_with(1.0f / 15.0f), fine = error_with(1.0f / 30.0f), finest = error_with(1.0f / 60.0f);
     EXPECT_NEAR(coarse / fine, 2.0f, 0.02f);
     EXPECT_NEAR(fine / finest, 2.0f, 0.02f);
