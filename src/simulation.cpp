@@ -92,7 +92,8 @@ bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
            plan.in_groups == other.in_groups && plan.singles == other.singles && plan.bounces == other.bounces;
 }
 
-/// What comes bit by bit goes on, and gets a `share` more; what comes all at once is what the caller has put together.
+/// What comes bit by bit goes on, and gets one part in `share` more; what comes all at once is what the caller has put
+/// together.
 uint with_headroom(uint demand, uint capacity, uint share = 4) {
     return demand + demand / (demand / 2 > capacity ? 16 : share);
 }

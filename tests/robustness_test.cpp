@@ -143,6 +143,19 @@ TEST_P(Robustness, a_pusher_faster_than_the_limit_does_not_take_bodies_beyond_it
     EXPECT_NEAR(world.pose(pushing).position.x, -1.5f + 4.0f, 1e-4f) << "it is its caller's and has no limit";
 }
 
+/// A hit is not among the impulses that the next sub-step starts from, and nor may be what the limit takes from it.
+TEST_P(Robustness, what_is_hit_beyond_the_limit_goes_on_at_it) {
+    Settings settings = weightless();
+    settings.max_linear_speed = 10.0f;
+    World world = make_world(settings);
+    const BodyId heavy = world.add(weighing(with_material(sphere_at({-1.1f, 0.0f, 0.0f}), 0.0f, 1.0f), 100.0f));
+    const BodyId light = world.add(weighing(with_material(sphere_at({}), 0.0f, 1.0f), 1.0f));
+    world.set_velocity(heavy, {{8.0f, 0.0f, 0.0f}, {}}); // the light one leaves with 15.8 m/s
+    for (int i = 0; i < 30; ++i)
+        world.step();
+    EXPECT_NEAR(world.velocity(light).linear.x, 10.0f, 1e-4f);
+}
+
 TEST_P(Robustness, fast_bodies_do_not_pass_through_walls) {
     World world = make_world(weightless());
     world.add(box_at({0.0f, 0.0f, 0.0f}, {0.1f, 10.0f, 10.0f}, BodyKind::Static));

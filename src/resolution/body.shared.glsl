@@ -118,7 +118,8 @@ inline BodyWarmStart gather_impulses(BodyWarmStart warm, BodyVelocity velocity)
 }
 
 // Of a body that is hit `time` into the sub-step: leaves out what the hit has changed, which is no load to start from.
-// The sub-step will move the body by its velocity after the hit; until then it has had the one before.
+// The sub-step will move the body by its velocity after the hit; until then it has had the one before. In the order of
+// these sums nothing is left of the hit where contacts have changed nothing else.
 inline BodyWarmStart take_hit(BodyWarmStart warm, BodyVelocity before, BodyVelocity after, float time)
 {
     precise vec3 linear = after.linear - (before.linear - warm.linear_before);
@@ -158,15 +159,16 @@ inline vec3 acceleration_by_forces(BodyVelocity velocity, BodyProperties body, B
 // all: what brushes along a wall in its fall still falls.
 const float k_falling_share = 0.125f;
 
-// m/s², by forces, of a body that falls freely in this sub-step. 0 of one that contacts hold.
-inline vec3 falling_acceleration(BodyVelocity velocity, BodyWarmStart warm, BodyProperties body, BodyLoad load, float h,
-                                 Parameters p)
+// m/s², by forces, of a body that falls freely in this sub-step. 0 of one that contacts hold, or that does not move.
+inline vec3 falling_acceleration(BodyVelocity velocity, BodyWarmStart warm, BodyProperties body, BodyInertia inertia,
+                                 BodyLoad load, float h, Parameters p)
 {
     vec3 by_forces = acceleration_by_forces(velocity, body, load, p);
     precise vec3 by_contacts = warm.linear + (velocity.linear - warm.linear_before);
     precise float limit = k_falling_share * h;
     precise float square_limit = limit * limit * dot3(by_forces, by_forces);
-    return choose(dot3(by_contacts, by_contacts) < square_limit, by_forces, vec3(0.0f, 0.0f, 0.0f));
+    bool falls = (inertia.traits & k_trait_moves) != 0u && dot3(by_contacts, by_contacts) < square_limit;
+    return choose(falls, by_forces, vec3(0.0f, 0.0f, 0.0f));
 }
 
 // ---- limits of speed ----

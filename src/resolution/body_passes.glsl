@@ -32,7 +32,7 @@ void integrate_body(uint body, uint substep)
         BodyVelocity limited = limit_speeds(velocity, parameters);
         warm = leave_out(warm, velocity, limited);
         velocity = limited;
-        vec3 falling = falling_acceleration(velocity, warm, its_properties, load, h, parameters);
+        vec3 falling = falling_acceleration(velocity, warm, its_properties, inertia, load, h, parameters);
         delta = integrate_position(delta, warm, velocity, falling, h);
         store_delta(body, delta);
     }

@@ -26,7 +26,7 @@ inline void integrate_body(CpuState& state, uint body, uint substep) {
         const BodyVelocity limited = limit_speeds(velocity, state.parameters);
         warm = leave_out(warm, velocity, limited);
         velocity = limited;
-        const vec3 falling = falling_acceleration(velocity, warm, properties, load, h, state.parameters);
+        const vec3 falling = falling_acceleration(velocity, warm, properties, inertia, load, h, state.parameters);
         delta = integrate_position(delta, warm, velocity, falling, h);
     }
     if (substep == inertia.substeps) return;

@@ -117,10 +117,9 @@ bool can_be_hit(uint index, ManifoldState before)
 
 vec3 falling_acceleration_of(uint body, BodyVelocity velocity)
 {
-    if ((unpack(inertias[body]).traits & k_trait_moves) == 0u) return vec3(0.0);
     float h = substep_length(substeps, parameters);
-    return falling_acceleration(velocity, load_warm_start(body), unpack(properties[body]), unpack(loads[body]), h,
-                                parameters);
+    return falling_acceleration(velocity, load_warm_start(body), unpack(properties[body]), unpack(inertias[body]),
+                                unpack(loads[body]), h, parameters);
 }
 
 // Instead of the pass that has found the hit, whose result was not put back.

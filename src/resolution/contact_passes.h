@@ -56,9 +56,8 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     const BodyDelta delta_b = shifted(state.deltas[c.body_b], state.warm_starts[c.body_b]);
     const float h = substep_length(c.substeps, state.parameters);
     const auto falling = [&](uint body, const BodyVelocity& velocity) {
-        if ((state.inertias[body].traits & k_trait_moves) == 0) return vec3(0.0f, 0.0f, 0.0f);
-        return falling_acceleration(velocity, state.warm_starts[body], state.properties[body], state.loads[body], h,
-                                    state.parameters);
+        return falling_acceleration(velocity, state.warm_starts[body], state.properties[body], state.inertias[body],
+                                    state.loads[body], h, state.parameters);
     };
     const Hit hit = solve_hit(before.velocities, rows, measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b),
                               current_separations(rows, c.base_separation, c.traits, delta_a, delta_b),

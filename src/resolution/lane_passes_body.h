@@ -435,8 +435,8 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t subste
         const BodyVelocity limited = limit_speeds(velocity, state.parameters);
         warm = leave_out(warm, velocity, limited);
         velocity = limited;
-        const vec3 falling =
-            falling_acceleration(velocity, warm, batch.properties, batch.load, batch.h, state.parameters);
+        const vec3 falling = falling_acceleration(velocity, warm, batch.properties, batch.inertia, batch.load, batch.h,
+                                                  state.parameters);
         delta = integrate_position(delta, warm, velocity, falling, batch.h);
     }
     std::uint32_t unusual = 0;

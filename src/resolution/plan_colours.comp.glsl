@@ -7,8 +7,8 @@
 // Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.
 // Overflow: more colours or sub-steps than the host has launches for, and more manifolds, or manifolds of hubs, than it
-// has room for, are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by this step or an
-// earlier one, all launches are empty.
+// has room for, are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by
+// this step or an earlier one, all launches are empty.
 #include "state/dispatch.shared.glsl"
 #include "resolution/island.shared.glsl"
 

@@ -4,7 +4,7 @@
 // share a body that they could push. The overflow set is solved one after the other by a single invocation.
 // Before this file the kernel defines k_hubs: whether the colour is one for contacts of hubs. Where there are hubs nothing
 // bounces.
-// Reads: ColourOffsets, Constraints, Inertias, Deltas.
+// Reads: ColourOffsets, Constraints, Inertias, Properties, Loads, Deltas.
 // Writes: Velocities, WarmStarts, Constraints (impulses), HubChanges.
 // Needs: a barrier after the colour before.
 // Overflow: none; launched empty after a step that did not fit.
