@@ -11,7 +11,7 @@ namespace talus::engine {
 namespace {
 
 // A contact is seen this far ahead of touching (m).
-constexpr float k_speculative_distance = 0.02f;
+constexpr float k_speculative_distance = 0.012f;
 // Overlap that Baumgarte's bias leaves alone, so that contacts at rest do not come and go (m).
 constexpr float k_baumgarte_slop = 0.005f;
 

@@ -16,7 +16,7 @@ static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 1
 std::size_t SavedState::bytes() const {
     std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
                       impulses.size() * sizeof(float) + contact_states.size() * sizeof(uint) +
-                      rests.size() * sizeof(BodyRest) + aabbs.size() * sizeof(Aabb);
+                      rests.size() * sizeof(BodyRest) + boxes.size() * sizeof(OrientedBox);
     BodyTable::visit_lists(table, [&](const auto& list) { sum += list.size() * sizeof list[0]; });
     return sum;
 }
@@ -40,9 +40,9 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
     uint& searched = saved.counters[k_counter_searched_slots];
     if (searched > table.slot_count()) searched = 0;
     saved.counters[k_counter_pair_demand] = saved.counters[k_counter_old_pair_count];
-    saved.aabbs.resize(searched);
+    saved.boxes.resize(searched);
     simulation.detection_device().read(
-        std::array{ReadRequest{BufferId::Aabbs, saved.aabbs.size() * sizeof(Aabb), saved.aabbs.data()}});
+        std::array{ReadRequest{BufferId::OrientedBoxes, saved.boxes.size() * sizeof(OrientedBox), saved.boxes.data()}});
     // The table may have given up slots since the last step.
     saved.counters[k_counter_body_count] = std::min(saved.counters[k_counter_body_count], table.slot_count());
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
@@ -91,7 +91,11 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::Constraints, constraints);
     write_all(BufferId::Counters, saved.counters);
     write_all(BufferId::Rests, saved.rests);
-    write_all(BufferId::Aabbs, saved.aabbs);
+    write_all(BufferId::OrientedBoxes, saved.boxes);
+    std::vector<Aabb> aabbs;
+    for (const OrientedBox& box : saved.boxes)
+        aabbs.push_back(compute_aabb(box));
+    write_all(BufferId::Aabbs, aabbs);
     if (watches_contacts()) {
         std::vector<uint> states = saved.contact_states;
         states.resize(pair_count, k_contact_apart);

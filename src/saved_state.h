@@ -23,7 +23,7 @@ struct SavedState {
     std::vector<float> impulses;       ///< N·s along the normal, one a point: of the whole step, hits included
     std::vector<uint> contact_states;  ///< k_contact_*, one a pair; empty where no contacts were watched
     std::vector<BodyRest> rests;       ///< one a body slot; empty where nothing may sleep
-    std::vector<Aabb> aabbs;           ///< one a body slot of the last search for pairs
+    std::vector<OrientedBox> boxes;    ///< one a body slot of the last search for pairs
 
     std::size_t bytes() const;
 };

@@ -39,7 +39,7 @@ constexpr std::array k_body_buffers{
     BufferId::PairCounts, BufferId::SpreadSums,   BufferId::SortedAabbs,  BufferId::Inertias,
     BufferId::WarmStarts, BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,
     BufferId::Hubs,       BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,
-    BufferId::IslandFill, BufferId::IslandBodies, BufferId::IslandPlaces,
+    BufferId::IslandFill, BufferId::IslandBodies, BufferId::IslandPlaces, BufferId::OrientedBoxes,
 };
 
 constexpr std::array k_pair_buffers{

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 6;
+constexpr std::uint32_t k_version = 7;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
@@ -113,7 +113,7 @@ template <typename File, typename State> void visit(File& file, State& state) {
     file.list(state.impulses);
     file.list(state.contact_states);
     file.list(state.rests);
-    file.list(state.aabbs);
+    file.list(state.boxes);
 }
 
 /// A file may have been made by anyone: indices that lead out of a list are refused here.
@@ -147,8 +147,8 @@ void check(SavedState& state) {
         (!state.rests.empty() && state.rests.size() != slots) || counters[k_counter_did_not_fit] != 0 ||
         counters[k_counter_body_count] > slots || counters[k_counter_old_pair_count] != report.pairs ||
         counters[k_counter_pair_demand] != report.pairs || counters[k_counter_search_count] != 0 ||
-        counters[k_counter_pairs_changed] != 0 || counters[k_counter_searched_slots] != state.aabbs.size() ||
-        state.aabbs.size() > slots)
+        counters[k_counter_pairs_changed] != 0 || counters[k_counter_searched_slots] != state.boxes.size() ||
+        state.boxes.size() > slots)
         throw Error("its counts do not go together");
 }
 

@@ -30,19 +30,37 @@ inline bool is_placed(BodyPose pose, BodyShape shape)
     return (pose.flags & k_body_placed) != 0u || !is_mover(shape);
 }
 
-inline Aabb compute_aabb(BodyPose pose, BodyVelocity velocity, BodyShape shape, Parameters p)
+inline OrientedBox make_oriented_box(BodyPose pose, BodyVelocity velocity, BodyShape shape, Parameters p)
 {
-    vec3 extent = shape.half_extents;
-    if ((shape.type & 255u) == k_shape_box) {
-        // The extent along a world axis sums what each box axis contributes to it.
-        Axes axes = rotation_axes(pose.rotation);
-        precise vec3 box_extent = abs(axes.x) * extent.x + abs(axes.y) * extent.y + abs(axes.z) * extent.z;
-        extent = box_extent;
-    }
-    float margin = contact_margin(velocity, p);
+    OrientedBox box;
+    box.centre = pose.position;
+    box.margin = contact_margin(velocity, p);
+    box.rotation = pose.rotation;
+    if (is_sphere(shape)) box.rotation = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    box.half_extents = shape.half_extents;
+    box.type = shape.type;
+    return box;
+}
+
+inline BodyShape shape_of(OrientedBox box)
+{
+    BodyShape shape;
+    shape.half_extents = box.half_extents;
+    shape.type = box.type;
+    return shape;
+}
+
+inline Aabb compute_aabb(OrientedBox oriented)
+{
+    // The extent along a world axis sums what each box axis contributes to it.
+    Axes axes = rotation_axes(oriented.rotation);
+    vec3 half_extents = oriented.half_extents;
+    float margin = oriented.margin;
+    precise vec3 extent = abs(axes.x) * half_extents.x + abs(axes.y) * half_extents.y + abs(axes.z) * half_extents.z;
     precise vec3 reach = extent + vec3(margin, margin, margin);
-    precise vec3 lower = pose.position - reach;
-    precise vec3 upper = pose.position + reach;
+    precise vec3 lower = oriented.centre - reach;
+    precise vec3 upper = oriented.centre + reach;
+    BodyShape shape = shape_of(oriented);
     Aabb box;
     box.lower = lower;
     box.upper = upper;
@@ -53,32 +71,6 @@ inline Aabb compute_aabb(BodyPose pose, BodyVelocity velocity, BodyShape shape, 
         box.upper = vec3(-3.0e38f, -3.0e38f, -3.0e38f);
     }
     return box;
-}
-
-// ---- boxes that last ----
-//
-// The search for pairs sees boxes that reach further than contacts do, by a skin. While every body's box stays within the
-// one that the search had of it, its pairs are all that there can be, and no search is made (Verlet 1967). What stands
-// moves by some micrometres a step; a thicker skin would make pairs of bricks with mortar between them.
-const float k_skin_share = 0.125f; // of the speculative distance
-
-inline Aabb with_skin(Aabb box, Parameters p)
-{
-    precise float skin = k_skin_share * p.speculative_distance;
-    precise vec3 lower = box.lower - vec3(skin, skin, skin);
-    precise vec3 upper = box.upper + vec3(skin, skin, skin);
-    precise float margin = box.margin + skin;
-    box.lower = lower;
-    box.upper = upper;
-    box.margin = margin;
-    return box;
-}
-
-inline bool is_within(Aabb inner, Aabb outer)
-{
-    return inner.lower.x >= outer.lower.x && inner.upper.x <= outer.upper.x && inner.lower.y >= outer.lower.y &&
-           inner.upper.y <= outer.upper.y && inner.lower.z >= outer.lower.z && inner.upper.z <= outer.upper.z &&
-           inner.movable == outer.movable;
 }
 
 // Whether two boxes overlap (thesis, algorithm 2; touching counts, from both sides alike), and at least one of the bodies

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A body's world bounding box as the body is now, without a skin.
+// A body's box as the body is now, without a skin.
 #pragma once
 
 #include "device/cpu/cpu_state.h"
@@ -7,8 +7,8 @@
 
 namespace talus::engine {
 
-inline Aabb box_now(const CpuState& state, uint body) {
-    return compute_aabb(state.poses[body], state.velocities[body], state.shapes[body], state.parameters);
+inline OrientedBox box_now(const CpuState& state, uint body) {
+    return make_oriented_box(state.poses[body], state.velocities[body], state.shapes[body], state.parameters);
 }
 
 } // namespace talus::engine

@@ -14,7 +14,8 @@ static void find_strays_on_cpu(CpuState& state, const Launch&) {
     if (!strays) {
         state.parallel(body_count, [&](uint body) {
             if (strays.load(std::memory_order_relaxed)) return;
-            if (!is_within(box_now(state, body), state.aabbs[body])) strays.store(true, std::memory_order_relaxed);
+            if (!is_within(box_now(state, body), state.oriented_boxes[body]))
+                strays.store(true, std::memory_order_relaxed);
         });
     }
     if (strays) state.counters[k_counter_search_count] = body_count;

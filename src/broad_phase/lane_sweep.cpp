@@ -27,16 +27,13 @@ void SweepMemory::take_boxes(const CpuState& state, uint count) {
     });
 }
 
-uint SweepMemory::find_partners(const Aabb& box, uint first, uint end, std::vector<uint>& partners) const {
+void SweepMemory::find_partners(const Aabb& box, uint first, uint end, std::vector<uint>& partners) const {
     std::array<uint, 256> found;
-    uint all = 0;
     for (; first < end; first += static_cast<uint>(found.size())) {
         const uint last = std::min(end, first + static_cast<uint>(found.size()));
         const uint count = lane_sweep().find_partners(box, boxes_.data(), first, last, found.data());
         partners.insert(partners.end(), found.begin(), found.begin() + count);
-        all += count;
     }
-    return all;
 }
 
 std::size_t SweepMemory::memory_bytes() const {

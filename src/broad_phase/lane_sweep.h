@@ -28,8 +28,8 @@ public:
 
     /// For as many boxes as there are places.
     void take_boxes(const CpuState&, uint count);
-    /// Appends the places of those from `first` to `end` - 1 that are candidates, and returns how many.
-    uint find_partners(const Aabb&, uint first, uint end, std::vector<uint>& partners) const;
+    /// Appends the places of those from `first` to `end` - 1 that are candidates.
+    void find_partners(const Aabb&, uint first, uint end, std::vector<uint>& partners) const;
     /// Of the places from `part` k_part on, one place after the other.
     std::vector<uint>& partners_of(uint part) { return partners_[part]; }
     std::size_t memory_bytes() const;

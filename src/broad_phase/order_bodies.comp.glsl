@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // One group does for a small world what find_strays, update_aabbs, measure_spread, choose_axis, write_sort_keys, the sort
 // and gather_aabbs do for a large one, with the same results: seven dispatches that wait for each other become one.
-// Reads: Counters, Poses, Velocities, Shapes.
-// Writes: Counters, Aabbs, SpreadSums, SweepAxes, SortKeys, SortValues, SortedAabbs.
+// Reads: Counters, Poses, Velocities, Shapes, OrientedBoxes.
+// Writes: Counters, OrientedBoxes, Aabbs, SpreadSums, SweepAxes, SortKeys, SortValues, SortedAabbs.
 // Needs: nothing. At most k_island_bodies body slots.
 // Overflow: none; as of find_strays.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/oriented_box.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
 #include "primitives/primitives.shared.glsl"
 
@@ -16,6 +17,7 @@ layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
+layout(std430) buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
 layout(std430) coherent buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) writeonly buffer SpreadSums { SpreadSum spread_sums[]; };
 layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
@@ -77,12 +79,15 @@ void main()
     if (me == 0u) strays = counters[k_counter_searched_slots] != body_count;
     barrier();
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
-        if (!is_within(box_now(body), load_aabb(body))) strays = true;
+        if (!is_within(box_now(body), unpack(oriented_boxes[body]))) strays = true;
     barrier();
     if (!strays) return;
     if (me == 0u) counters[k_counter_search_count] = body_count;
-    for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
-        aabbs[body] = pack(with_skin(box_now(body), parameters));
+    for (uint body = me; body < body_count; body += gl_WorkGroupSize.x) {
+        OrientedBox box = with_skin(box_now(body));
+        oriented_boxes[body] = pack(box);
+        aabbs[body] = pack(compute_aabb(box));
+    }
     groupMemoryBarrier();
     barrier();
     SpreadSum sum = measure_spread();

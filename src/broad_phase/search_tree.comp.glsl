@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body in sorted order: searches the tree for the boxes after its own that overlap it, its
-// partners. The way through the tree is the sorted order itself, so there is no stack: a node that does not overlap is
+// One invocation is a body in sorted order: searches the tree for the boxes after its own that overlap it. Those that no face
+// keeps apart from it are its partners. The way through the tree is the sorted order itself, so there is no stack: a node that does not overlap is
 // passed over, one that does is entered at its first child. Neighbours in a group take much the same way.
 // Run twice: args.x = 0 counts, and keeps the first k_kept_partners; 1 writes these at the scanned offset and goes on
 // from the last of them if there are more. args.y: the root's shift.
-// Reads: Counters, TreeNodes, TreeGrids, SortValues.
+// Reads: Counters, TreeNodes, TreeGrids, SortValues, OrientedBoxes.
 // Writes: PairCounts, Partners (counting) or Pairs (writing), in the order of the sort; Counters.
 // Needs: a barrier after build_tree; for writing, after the scan of the counts.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written. A search that the driver ended is
 // told in k_counter_did_not_fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/oriented_box.shared.glsl"
 #include "broad_phase/tree.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -18,6 +19,7 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer TreeNodes { AabbCells tree_nodes[]; };
 layout(std430) readonly buffer TreeGrids { TreeGrid tree_grids[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
+layout(std430) readonly buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
 layout(std430) buffer Partners { uint partners[]; };
 layout(std430) writeonly buffer Pairs { Pair pairs[]; };
@@ -66,13 +68,14 @@ void main()
         if (place >= end) return;
     }
     Aabb box = unpack(tree_nodes[tree_node(own, 0u, args.y)]);
+    OrientedBox oriented = unpack(oriented_boxes[body]);
     uint shift = tree_shift_from(place);
     while (place < end) {
         bool overlaps = is_candidate(box, unpack(tree_nodes[tree_node(place, shift, args.y)]));
         if (overlaps && shift > 0u) {
             shift -= k_tree_bits;
         } else {
-            if (overlaps) take(place);
+            if (overlaps && !faces_part(oriented, unpack(oriented_boxes[sort_values[place]]))) take(place);
             place += 1u << shift;
             shift = tree_shift_from(place);
         }

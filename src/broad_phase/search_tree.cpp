@@ -37,6 +37,7 @@ static void search_tree_on_cpu(CpuState& state, const Launch& launch) {
             if (count <= k_kept_partners) return;
         }
         const Aabb box = state.tree_nodes[tree_node(own, 0, top)];
+        const OrientedBox oriented = state.oriented_boxes[body];
         uint shift = tree_shift_from(place);
         while (place < end) {
             const bool overlaps = is_candidate(box, state.tree_nodes[tree_node(place, shift, top)]);
@@ -44,7 +45,7 @@ static void search_tree_on_cpu(CpuState& state, const Launch& launch) {
                 shift -= k_tree_bits;
                 continue;
             }
-            if (overlaps) take(place);
+            if (overlaps && !faces_part(oriented, state.oriented_boxes[state.sort_values[place]])) take(place);
             place += 1u << shift;
             shift = tree_shift_from(place);
         }

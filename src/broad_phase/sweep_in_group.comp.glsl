@@ -2,12 +2,13 @@
 // One group does for a small world what two launches of sweep_pairs and the scan between them do for a large one, with
 // the same results: all boxes fit into its shared memory.
 // One invocation is a body in sorted order, as in sweep_pairs.
-// Reads: Counters, SortedAabbs, SweepAxes, SortValues.
+// Reads: Counters, SortedAabbs, SweepAxes, SortValues, OrientedBoxes.
 // Writes: PairCounts (scanned), Pairs, Counters.
 // Needs: a barrier after order_bodies. At most k_island_bodies body slots.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/oriented_box.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
 
 layout(local_size_x = 1024) in; // k_island_bodies
@@ -15,6 +16,7 @@ layout(local_size_x = 1024) in; // k_island_bodies
 layout(std430) readonly buffer SortedAabbs { AabbCells sorted_aabbs[]; };
 layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
+layout(std430) readonly buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
 layout(std430) writeonly buffer PairCounts { uint pair_counts[]; };
 layout(std430) writeonly buffer Pairs { Pair pairs[]; };
 layout(std430) buffer Counters { uint counters[]; };
@@ -48,6 +50,7 @@ uint sweep(uint place, Aabb box, SweepAxis sweep_axis, bool writing, uint offset
 {
     uint found = 0u;
     uint body = sort_values[place];
+    OrientedBox oriented = unpack(oriented_boxes[body]);
     float limit = component(box.upper, sweep_axis.axis);
     uint lower = sweep_axis.axis * k_island_bodies;
     bool sweeping = place < sweep_axis.first_large;
@@ -58,7 +61,7 @@ uint sweep(uint place, Aabb box, SweepAxis sweep_axis, bool writing, uint offset
             i = sweep_axis.first_large;
             continue;
         }
-        if (is_candidate(box, shared_box(i))) {
+        if (is_candidate(box, shared_box(i)) && !faces_part(oriented, unpack(oriented_boxes[sort_values[i]]))) {
             uint pair = offset + found;
             if (writing && pair < parameters.pair_capacity) pairs[pair] = make_pair(body, sort_values[i]);
             found += 1u;

@@ -3,12 +3,13 @@
 // then all large ones (thesis, algorithm 2). The bodies of a group are neighbours in that order and sweep much the same
 // boxes, so the group fetches them together, a tile at a time. Run twice: args.x = 0 counts, 1 writes at the scanned
 // offsets.
-// Reads: Counters, SortedAabbs, SweepAxes, SortValues.
+// Reads: Counters, SortedAabbs, SweepAxes, SortValues, OrientedBoxes.
 // Writes: PairCounts (counting) or Pairs (writing), in the order of the sort.
 // Needs: a barrier after gather_aabbs; for writing, after the scan of the counts.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/oriented_box.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -17,6 +18,7 @@ layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer SortedAabbs { AabbCells sorted_aabbs[]; };
 layout(std430) readonly buffer SweepAxes { SweepAxis sweep_axes[]; };
 layout(std430) readonly buffer SortValues { uint sort_values[]; };
+layout(std430) readonly buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
 layout(std430) buffer PairCounts { uint pair_counts[]; };
 layout(std430) writeonly buffer Pairs { Pair pairs[]; };
 
@@ -27,12 +29,13 @@ shared bool goes_on;
 uint place;
 uint body;
 Aabb box;
+OrientedBox oriented;
 uint offset; // of its pairs
 uint found = 0u;
 
 void test(uint other, Aabb other_box)
 {
-    if (!is_candidate(box, other_box)) return;
+    if (!is_candidate(box, other_box) || faces_part(oriented, unpack(oriented_boxes[sort_values[other]]))) return;
     uint pair = offset + found;
     if (args.x == 1u && pair < parameters.pair_capacity) pairs[pair] = make_pair(body, sort_values[other]);
     found += 1u;
@@ -74,6 +77,7 @@ void main()
         offset = args.x == 1u ? pair_counts[place] : 0u;
         body = sort_values[place];
         box = unpack(sorted_aabbs[place]);
+        oriented = unpack(oriented_boxes[body]);
     }
     float limit = component(box.upper, sweep_axis.axis);
     sweep(group_first + 1u, sweep_axis.first_large, sweep_axis.axis, limit, is_body);

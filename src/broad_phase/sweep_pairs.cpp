@@ -32,8 +32,17 @@ void count_partners(CpuState& state, SweepMemory& memory, uint body_count) {
             const Aabb* const beyond = std::partition_point(boxes + next, boxes + first_large, [&](const Aabb& other) {
                 return component(other.lower, axis.axis) <= limit;
             });
-            state.pair_counts[place] = memory.find_partners(box, next, static_cast<uint>(beyond - boxes), partners) +
-                                       memory.find_partners(box, first_large, axis.end, partners);
+            const std::size_t before = partners.size();
+            memory.find_partners(box, next, static_cast<uint>(beyond - boxes), partners);
+            memory.find_partners(box, first_large, axis.end, partners);
+            const OrientedBox& oriented = state.oriented_boxes[state.sort_values[place]];
+            const auto parted = [&](uint partner) {
+                return faces_part(oriented, state.oriented_boxes[state.sort_values[partner]]);
+            };
+            partners.erase(
+                std::remove_if(partners.begin() + static_cast<std::ptrdiff_t>(before), partners.end(), parted),
+                partners.end());
+            state.pair_counts[place] = static_cast<uint>(partners.size() - before);
         }
     });
 }

@@ -14,6 +14,7 @@ static void test_all_pairs_on_cpu(CpuState& state, const Launch& launch) {
         uint found = 0;
         for (uint other = body + 1; other < body_count; ++other) {
             if (!is_candidate(state.aabbs[body], state.aabbs[other])) continue;
+            if (faces_part(state.oriented_boxes[body], state.oriented_boxes[other])) continue;
             if (writing && offset + found < state.parameters.pair_capacity)
                 state.pairs[offset + found] = make_pair(body, other);
             ++found;

@@ -6,8 +6,11 @@
 namespace talus::engine {
 
 static void update_aabbs_on_cpu(CpuState& state, const Launch&) {
-    state.parallel(state.counters[k_counter_search_count],
-                   [&](uint body) { state.aabbs[body] = with_skin(box_now(state, body), state.parameters); });
+    state.parallel(state.counters[k_counter_search_count], [&](uint body) {
+        const OrientedBox box = with_skin(box_now(state, body));
+        state.oriented_boxes[body] = box;
+        state.aabbs[body] = compute_aabb(box);
+    });
 }
 
 const Kernel update_aabbs{"broad_phase/update_aabbs", update_aabbs_on_cpu};

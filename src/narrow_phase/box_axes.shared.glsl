@@ -4,7 +4,7 @@
 // An axis is named by a number: 0-2 a face of A with that axis as its normal, 3-5 a face of B, 6 + 3 i + j the cross
 // product of A's edge i and B's edge j. The thesis queries vertices (algorithms 5 and 6); a box's support point along an
 // axis is known from its half extents, so the distances below are the same in closed form.
-// Needs narrow_phase/contact_geometry.shared.glsl.
+// Needs broad_phase/oriented_box.shared.glsl and narrow_phase/contact_geometry.shared.glsl.
 
 // An edge contact must be this much less deep than every face contact to be taken (m). A face gives up to four points
 // where an edge gives one, and in a resting stack the two tie.
@@ -14,24 +14,10 @@ const float k_axis_persistence = 1.0e-3f;
 // Edges within about 2 degrees of parallel have no usable cross product; the faces cover them.
 const float k_parallel = 1.0e-3f;
 
-struct BoxPair {
-    Axes a;
-    Axes b;
-    vec3 half_a;
-    vec3 half_b;
-    vec3 offset; // from A's centre to B's, world
-};
-
 inline BoxPair make_box_pair(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b)
 {
-    precise vec3 offset = pose_b.position - pose_a.position;
-    BoxPair p;
-    p.a = rotation_axes(pose_a.rotation);
-    p.b = rotation_axes(pose_b.rotation);
-    p.half_a = shape_a.half_extents;
-    p.half_b = shape_b.half_extents;
-    p.offset = offset;
-    return p;
+    return make_box_pair(pose_a.position, pose_a.rotation, shape_a.half_extents, pose_b.position, pose_b.rotation,
+                         shape_b.half_extents);
 }
 
 struct AxisQuery {
@@ -58,17 +44,6 @@ inline AxisQuery better_axis(AxisQuery best, float separation, float preference,
     best.score = choose(better, score, best.score);
     best.axis = choose(better, axis, best.axis);
     return best;
-}
-
-// Separation along a unit direction: distance of the centres less the extents of both boxes.
-inline float separation_along(BoxPair p, vec3 direction)
-{
-    precise float reach_a = abs(dot3(p.a.x, direction)) * p.half_a.x + abs(dot3(p.a.y, direction)) * p.half_a.y +
-                            abs(dot3(p.a.z, direction)) * p.half_a.z;
-    precise float reach_b = abs(dot3(p.b.x, direction)) * p.half_b.x + abs(dot3(p.b.y, direction)) * p.half_b.y +
-                            abs(dot3(p.b.z, direction)) * p.half_b.z;
-    precise float separation = abs(dot3(p.offset, direction)) - reach_a - reach_b;
-    return separation;
 }
 
 inline AxisQuery try_face(AxisQuery best, BoxPair p, vec3 normal, uint axis, uint old_axis)

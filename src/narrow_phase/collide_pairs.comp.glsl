@@ -10,6 +10,7 @@
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/oriented_box.shared.glsl"
 #include "resolution/sleep.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
@@ -90,7 +91,10 @@ void keep_manifold(uint pair_index, Pair pair, uint old_index)
 }
 
 // The search sees boxes with a skin.
-bool is_near(Pair pair) { return is_candidate(box_now(pair.body_a), box_now(pair.body_b)); }
+bool is_near(Pair pair)
+{
+    return is_candidate(compute_aabb(box_now(pair.body_a)), compute_aabb(box_now(pair.body_b)));
+}
 
 uint old_manifold_of(uint pair_index, Pair pair)
 {

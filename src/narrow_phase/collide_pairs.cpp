@@ -59,7 +59,7 @@ void keep_manifold(CpuState& state, uint pair_index, uint old_index) {
 
 /// The search sees boxes with a skin.
 bool is_near(const CpuState& state, const Pair& pair) {
-    return is_candidate(box_now(state, pair.body_a), box_now(state, pair.body_b));
+    return is_candidate(compute_aabb(box_now(state, pair.body_a)), compute_aabb(box_now(state, pair.body_b)));
 }
 
 uint old_manifold_of(const CpuState& state, uint pair_index, bool same_pairs) {

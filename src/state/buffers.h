@@ -28,7 +28,8 @@ namespace talus::engine {
     X(Rests, rests, BodyRest, "ffffffff", State)                                                                       \
     X(Changes, changes, uint, "u", Scratch)                                                                            \
     /* broad phase */                                                                                                  \
-    X(Aabbs, aabbs, Aabb, "fffffffu", State)                                                                           \
+    X(OrientedBoxes, oriented_boxes, OrientedBox, "fffffffffffu", State)                                               \
+    X(Aabbs, aabbs, Aabb, "fffffffu", Result)                                                                          \
     X(SpreadSums, spread_sums, SpreadSum, "ffffffffffff", Result)                                                      \
     X(SweepAxes, sweep_axes, SweepAxis, "ufuu", Result)                                                                \
     X(SortKeys, sort_keys, uint, "u", Result)                                                                          \

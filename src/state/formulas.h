@@ -19,6 +19,7 @@ namespace talus::engine {
 #include "state/dispatch.shared.glsl"
 
 #include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/oriented_box.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
 #include "resolution/sleep.shared.glsl"
 

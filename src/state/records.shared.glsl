@@ -62,6 +62,15 @@ struct Aabb {
     uint movable; // 1 where contacts can push the body, and of a sensor
 };
 
+// 48 bytes. A body as the search for pairs saw it; of a sphere the cube around it, which does not turn.
+struct OrientedBox {
+    vec3 centre;  // m, world
+    float margin; // m, how far beyond the shape contacts are looked for
+    vec4 rotation;
+    vec3 half_extents; // m
+    uint type;         // BodyShape::type
+};
+
 // 32 bytes. How far a body has come since the start of the step.
 struct BodyDelta {
     vec3 position; // m, world

@@ -32,6 +32,7 @@ using engine::Parameters; // the same for all lanes
 #include "state/math.shared.glsl"
 
 #include "broad_phase/aabb.shared.glsl"
+#include "broad_phase/oriented_box.shared.glsl"
 
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
