@@ -318,7 +318,8 @@ StepPlan Simulation::plan_in_launches(const Population& population) const {
     now.bounces = population.some_bounce;
     now.sleeping = settings.sleeping;
     now.waking = settings.sleeping ? population.waking : Waking::None;
-    now.overflow = plan.overflow || settings.solve_order == SolveOrder::Sequential;
+    if (settings.solve_order == SolveOrder::Sequential) now.overflow_count = k_none; // all
+    now.overflow = now.overflow_count > 0;
     now.least_substeps = passes.least_substeps;
     now.most_substeps = now.small ? passes.most_substeps
                                   : std::clamp(k_most_substeps_of_large, passes.least_substeps, passes.most_substeps);
@@ -340,6 +341,7 @@ StepPlan Simulation::plan_step(const Population& population) const {
     if (groups == 0 || passes > most) return now;
     now.persistent_groups = groups;
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
+    now.overflow = true;
     now.substep_capacity = now.most_substeps;
     return now;
 }
@@ -466,9 +468,10 @@ void Simulation::collect_reports(Ticket ticket, std::span<const uint> counters) 
 void Simulation::follow_demand(std::span<const uint> counters) {
     const uint colours = counters[k_counter_launched_colours], substeps = counters[k_counter_launched_substeps];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
-    const bool overflow = counters[k_counter_launched_overflow] > 0, singles = counters[k_counter_singles] > 0;
-    plan.overflow = plan.overflow || overflow;
-    window_overflow = window_overflow || overflow;
+    const uint overflow_count = counters[k_counter_launched_overflow];
+    const bool singles = counters[k_counter_singles] > 0;
+    plan.overflow_count = std::max(plan.overflow_count, overflow_count);
+    window_overflow = std::max(window_overflow, overflow_count);
     plan.singles = plan.singles || singles;
     window_singles = window_singles || singles;
     const uint wanted_colours = std::min(colours + 1, k_first_hub_colour); // one to spare
@@ -480,11 +483,11 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     if (++window_steps < k_demand_window) return;
     plan.colour_capacity = window_colours;
     plan.substep_capacity = window_substeps;
-    plan.overflow = window_overflow;
+    plan.overflow_count = window_overflow;
     plan.singles = window_singles;
     if (window_hub_manifolds == 0) plan.hub_capacity = 0;
-    window_overflow = window_singles = false;
-    window_steps = window_colours = window_substeps = window_hub_manifolds = 0;
+    window_singles = false;
+    window_steps = window_overflow = window_colours = window_substeps = window_hub_manifolds = 0;
 }
 
 void Simulation::make_room(void (Simulation::*grow)(uint), uint demand, uint wanted) {

@@ -158,7 +158,8 @@ private:
     uint window_colours = 0; ///< most colours since
     uint window_substeps = 0;
     uint window_hub_manifolds = 0;
-    bool window_overflow = false, window_singles = false;
+    uint window_overflow = 0;
+    bool window_singles = false;
     StepReport newest_report;
     uint solved_count = 0;
     Waking owed_waking = Waking::None; ///< of changes before steps that were given up

@@ -29,7 +29,8 @@ struct StepPlan {
     uint near_pairs = 1u << 20; ///< whose records are quick to reach in any order, as they lie close together
     uint table_size = 0;        ///< slots of PairTable
     uint colour_capacity = 0;   ///< colours that get launches
-    bool overflow = false;      ///< the overflow set gets launches
+    bool overflow = false;      ///< there may be an overflow set
+    uint overflow_count = 0;    ///< of how many manifolds, by the last steps
     uint hub_capacity = 0;      ///< manifolds of hubs that there is room for; 0: hubs get no launches
     bool small = false;         ///< up to k_island_bodies body slots
     bool one_island = false;    ///< islands are not told apart: a kinematic body may be part of several
@@ -55,8 +56,12 @@ struct StepPlan {
     bool measures_islands() const { return !small && (!one_island || sleeping); }
     bool has_groups() const { return in_groups && !small; }
     bool needs_launches() const { return !(in_groups && small); }
-    /// One persistent launch may make all passes, if the device has groups for it.
-    bool may_be_persistent() const { return needs_launches() && substep_capacity > 0 && !bounces && !overflow; }
+    /// One persistent launch may make all passes, if the device has groups for it. All others wait there for the one
+    /// invocation that solves the overflow set.
+    bool may_be_persistent() const {
+        constexpr uint k_most_overflow = 64;
+        return needs_launches() && substep_capacity > 0 && !bounces && overflow_count <= k_most_overflow;
+    }
 };
 
 /// Where the parts of a step run: the same device twice, or the GPU for the detection and the CPU for the resolution.
