@@ -297,9 +297,9 @@ TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {
     for (float weights = 0.0f; weights < 200.0f; weights += 0.25f) {
         const uint substeps = wanted_substeps(weights, k_unknown_height, p);
         EXPECT_GE(substeps, before) << weights;
-        EXPECT_LE(substeps, std::max(8.0f, 1.5f * std::max(0.5f * weights, 0.0951f * std::pow(weights, 1.5f))))
+        EXPECT_LE(substeps, std::max(8.0f, 1.5f * std::max(0.45f * weights, 0.0901f * std::pow(weights, 1.5f))))
             << weights;
-        EXPECT_GE(static_cast<float>(substeps), std::min(128.0f, 0.0949f * std::pow(weights, 1.5f))) << weights;
+        EXPECT_GE(static_cast<float>(substeps), std::min(128.0f, 0.0899f * std::pow(weights, 1.5f))) << weights;
         before = substeps;
     }
     // A low column of heavily loaded contacts: 40 weights on a single one, and on ten.

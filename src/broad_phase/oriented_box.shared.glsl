@@ -4,18 +4,12 @@
 //
 // The search for pairs sees boxes that reach further than contacts do, by a skin. While every body stays within the one that
 // the search had of it, its pairs are all that there can be, and no search is made (Verlet 1967). What stands moves by some
-// micrometres a step; a thicker skin would make pairs of bricks with mortar between them. What moves slowly has one for as
-// many steps as that lasts.
-const float k_skin = 2.5e-3f;            // m
-const float k_skin_steps = 8.0f;
-const float k_most_skin_ahead = 1.0e-2f; // m
+// micrometres a step; a thicker skin would make pairs of bricks with mortar between them.
+const float k_skin = 2.5e-3f; // m
 
-inline OrientedBox with_skin(OrientedBox box, BodyVelocity velocity, Parameters p)
+inline OrientedBox with_skin(OrientedBox box)
 {
-    float size = is_sphere(shape_of(box)) ? 0.0f : length3(box.half_extents);
-    precise float speed = length3(velocity.linear) + length3(velocity.angular) * size;
-    precise float ahead = k_skin_steps * speed * p.dt;
-    precise float margin = box.margin + (k_skin + min(ahead, k_most_skin_ahead));
+    precise float margin = box.margin + k_skin;
     box.margin = margin;
     return box;
 }

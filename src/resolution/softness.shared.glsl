@@ -92,9 +92,9 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
 // two. Where no more than H contacts above each other carry the load, they are a column of that height, with what it carries
 // beside itself on its end: that buckles it 7.84 / (pi^2 / 4) = 3.2 times as easily as its own weight. It sinks as if n followed
 // sqrt(H N), and a single contact under a heavy body by N g / (47 n)^2, which is to be less than 2 mm.
-const float k_substeps_against_sag = 0.5f;
+const float k_substeps_against_sag = 0.45f;
 const float k_substeps_against_overlap = 1.5f;
-const float k_substeps_against_buckling = 0.095f;
+const float k_substeps_against_buckling = 0.09f;
 const float k_end_load = 3.2f; // Timoshenko and Gere, "Theory of Elastic Stability" (1961): of a column's own weight
 
 // More sub-steps are had after so many steps in a row that asked for more, and then no more than the next number in use:
