@@ -34,12 +34,13 @@ constexpr uint k_most_manifolds_each = 64;
 constexpr uint k_demand_window = 64;
 
 constexpr std::array k_body_buffers{
-    BufferId::Poses,      BufferId::Velocities,   BufferId::Shapes,       BufferId::Properties,
-    BufferId::Loads,      BufferId::Aabbs,        BufferId::SortKeys,     BufferId::SortValues,
-    BufferId::PairCounts, BufferId::SpreadSums,   BufferId::SortedAabbs,  BufferId::Inertias,
-    BufferId::WarmStarts, BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,
-    BufferId::Hubs,       BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,
-    BufferId::IslandFill, BufferId::IslandBodies, BufferId::IslandPlaces, BufferId::OrientedBoxes,
+    BufferId::Poses,          BufferId::Velocities,   BufferId::Shapes,       BufferId::Properties,
+    BufferId::Loads,          BufferId::Aabbs,        BufferId::SortKeys,     BufferId::SortValues,
+    BufferId::PairCounts,     BufferId::SpreadSums,   BufferId::SortedAabbs,  BufferId::Inertias,
+    BufferId::WarmStarts,     BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,
+    BufferId::Hubs,           BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,
+    BufferId::IslandFill,     BufferId::IslandBodies, BufferId::IslandPlaces, BufferId::OrientedBoxes,
+    BufferId::LaunchedBodies,
 };
 
 constexpr std::array k_pair_buffers{
@@ -339,7 +340,10 @@ StepPlan Simulation::plan_step(const Population& population) const {
     const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
     const std::uint64_t most = std::uint64_t{k_most_manifolds_each} * groups * solve_persistent.items_a_group;
     if (groups == 0 || passes > most) return now;
-    now.persistent_groups = groups;
+    // Those that have nothing to do only make the wait longer, and take the room of launches beside it.
+    const std::uint64_t workers = std::min(2 * std::uint64_t{now.launched_items}, most);
+    const auto wanted = static_cast<uint>(workers / solve_persistent.items_a_group) + 1;
+    now.persistent_groups = std::min(groups, wanted);
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
     now.overflow = true;
     now.substep_capacity = now.most_substeps;
@@ -472,6 +476,7 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     const bool singles = counters[k_counter_singles] > 0;
     plan.overflow_count = std::max(plan.overflow_count, overflow_count);
     window_overflow = std::max(window_overflow, overflow_count);
+    plan.launched_items = std::max(counters[k_counter_launched_manifolds], counters[k_counter_launched_bodies]);
     plan.singles = plan.singles || singles;
     window_singles = window_singles || singles;
     const uint wanted_colours = std::min(colours + 1, k_first_hub_colour); // one to spare

@@ -21,19 +21,20 @@ struct Population {
 /// What the host knows of a step before it runs: how large launches may be, and which passes there are.
 struct StepPlan {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
-    uint body_count = 0;        ///< body slots in use
-    bool searches = true;       ///< the search for pairs gets launches, which it may turn out not to need
-    bool makes_graph = true;    ///< the constraint graph gets launches; without them it has to be the last step's
-    uint pair_capacity = 0;     ///< room in the buffers that have a record a pair
-    uint manifold_capacity = 0; ///< room for the manifolds that are solved
-    uint near_pairs = 1u << 20; ///< whose records are quick to reach in any order, as they lie close together
-    uint table_size = 0;        ///< slots of PairTable
-    uint colour_capacity = 0;   ///< colours that get launches
-    bool overflow = false;      ///< there may be an overflow set
-    uint overflow_count = 0;    ///< of how many manifolds, by the last steps
-    uint hub_capacity = 0;      ///< manifolds of hubs that there is room for; 0: hubs get no launches
-    bool small = false;         ///< up to k_island_bodies body slots
-    bool one_island = false;    ///< islands are not told apart: a kinematic body may be part of several
+    uint body_count = 0;          ///< body slots in use
+    bool searches = true;         ///< the search for pairs gets launches, which it may turn out not to need
+    bool makes_graph = true;      ///< the constraint graph gets launches; without them it has to be the last step's
+    uint pair_capacity = 0;       ///< room in the buffers that have a record a pair
+    uint manifold_capacity = 0;   ///< room for the manifolds that are solved
+    uint near_pairs = 1u << 20;   ///< whose records are quick to reach in any order, as they lie close together
+    uint table_size = 0;          ///< slots of PairTable
+    uint colour_capacity = 0;     ///< colours that get launches
+    bool overflow = false;        ///< there may be an overflow set
+    uint overflow_count = 0;      ///< of how many manifolds, by the last steps
+    uint launched_items = k_none; ///< manifolds that launches solve, or bodies, by the last steps; whichever are more
+    uint hub_capacity = 0;        ///< manifolds of hubs that there is room for; 0: hubs get no launches
+    bool small = false;           ///< up to k_island_bodies body slots
+    bool one_island = false;      ///< islands are not told apart: a kinematic body may be part of several
     bool in_groups = false;     ///< work groups solve islands: each of a small world, the little ones of a large world
     bool singles = false;       ///< in a large world a work group may solve a single island, too large to share one
     uint colouring_groups = 1;  ///< that colour new contacts, waiting for each other

@@ -305,8 +305,8 @@ TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {
     // A low column of heavily loaded contacts: 40 weights on a single one, and on ten.
     EXPECT_EQ(wanted_substeps(40.0f, 1, p), 12u);
     EXPECT_EQ(wanted_substeps(40.0f, 10, p), 12u);
-    EXPECT_EQ(wanted_substeps(40.0f, 40, p), 32u);
-    EXPECT_EQ(wanted_substeps(40.0f, 41, p), 32u) << "it is no higher than its load says";
+    EXPECT_EQ(wanted_substeps(40.0f, 40, p), 24u);
+    EXPECT_EQ(wanted_substeps(40.0f, 41, p), 24u) << "it is no higher than its load says";
     EXPECT_EQ(wanted_substeps(1000.0f, 1, p), 48u) << "its contact may sink by 2 mm";
     Settings few;
     few.substeps = few.max_substeps = 7;

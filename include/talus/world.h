@@ -16,7 +16,7 @@ namespace talus {
 /// Counts and times of one finished step.
 struct StepReport {
     std::uint64_t step = 0;               ///< how many steps the world had made with this one
-    std::uint32_t pairs = 0;              ///< of bodies whose bounding boxes overlapped, with a skin of 2.5 mm,
+    std::uint32_t pairs = 0;              ///< of bodies that no face kept apart, with a skin of 2.5 mm,
                                           ///< when they were last searched
     std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors
     std::uint32_t contacts = 0;           ///< contact points

@@ -70,6 +70,7 @@ void main()
     if (args.y == 1u) begin_graph();
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;
+    counters[k_counter_launched_bodies] = 0u;
     arrivals[0] = 0u; // of the first launch whose groups wait for each other
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);

@@ -53,6 +53,7 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     if (launch.args[1] == 1) begin_graph(state);
     counters[k_counter_report_count] = 0;
     counters[k_counter_sleeping_bodies] = 0;
+    counters[k_counter_launched_bodies] = 0;
     state.arrivals[0] = 0;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
     state.dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);

@@ -67,6 +67,8 @@ struct Launch {
     /// The uniform `args` of the kernel.
     std::array<uint, 4> args{};
     std::initializer_list<Binding> bindings{};
+    /// The next launch touches nothing that this one writes, and may run beside it.
+    bool overlaps_next = false;
 
     BufferId bound(const char* block) const; ///< for twins: the buffer behind a parameterised block
 };

@@ -1,6 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What the resolution does to one body: inertia, forces, gyroscopic torque, positions.
 
+// Whether launches treat a body, as no work group does and its island is awake.
+inline bool is_launched(BodyInertia inertia)
+{
+    return (inertia.traits & k_trait_grouped) == 0u && inertia.substeps != 0u;
+}
+
+// Of these, the ones that move, but for hubs, whose keepers integrate them.
+inline bool is_in_launched_bodies(BodyInertia inertia)
+{
+    return is_launched(inertia) && (inertia.traits & (k_trait_moves | k_trait_hub)) == k_trait_moves;
+}
+
 // R diag(1/I) R^T, with R's columns the body's axes.
 inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, uint traits, uint substeps)
 {

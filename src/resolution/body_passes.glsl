@@ -7,13 +7,6 @@
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 
-bool is_launched(BodyInertia inertia)
-{
-    bool is_grouped = (inertia.traits & k_trait_grouped) != 0u; // a work group does it
-    bool sleeps = inertia.substeps == 0u;
-    return !is_grouped && !sleeps;
-}
-
 // Ends the sub-step before `substep` with its movement, and begins `substep` with its forces: between the two nothing
 // happens. A body whose sub-steps are all done is left alone.
 void integrate_body(uint body, uint substep)

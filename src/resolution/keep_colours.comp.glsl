@@ -14,7 +14,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
+layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) writeonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) writeonly buffer ManifoldOrder { uint manifold_order[]; };
@@ -23,6 +23,12 @@ layout(std430) writeonly buffer Uncoloured { uint uncoloured[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
 #include "resolution/hub_load.glsl"
+
+// What the group's manifolds add to the counters.
+shared uint manifold_count;
+shared uint contact_count;
+shared uint substep_demand;
+shared uint colour_demand;
 
 void use_colour(uint body, uint colour)
 {
@@ -36,22 +42,20 @@ void want_colour(uint body)
     if (is_movable(shapes[body])) atomicAdd(body_colours[body_word(body, k_new_edges)], 1u);
 }
 
-void main()
+void keep_colour(uint pair)
 {
-    uint pair = item_index();
-    if (pair >= counters[k_counter_pair_count]) return;
-    Manifold manifold = manifolds[pair];
+    Manifold manifold = unpack(manifolds[pair]);
     uint colour = k_inactive_colour;
     if (is_active(manifold)) {
-        atomicAdd(counters[k_counter_manifold_count], 1u);
-        atomicAdd(counters[k_counter_contact_count], manifold.point_count);
-        atomicMax(counters[k_counter_substep_demand], manifold.substeps);
+        atomicAdd(manifold_count, 1u);
+        atomicAdd(contact_count, manifold.point_count);
+        atomicMax(substep_demand, manifold.substeps);
         colour = manifold.colour;
         bool both_movable = is_movable(shapes[manifold.body_a]) && is_movable(shapes[manifold.body_b]);
         if (is_kept(colour, both_movable, parameters.usable_colours)) {
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
-            atomicMax(counters[k_counter_colour_demand], colours_down_to(colour));
+            atomicMax(colour_demand, colours_down_to(colour));
         } else {
             colour = floatBitsToUint(load_on(pair, manifold.point_count));
             uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair;
@@ -61,4 +65,24 @@ void main()
     }
     manifold_keys[pair] = colour;
     manifold_order[pair] = pair;
+}
+
+void main()
+{
+    bool is_first = gl_LocalInvocationID.x == 0u;
+    if (is_first) {
+        manifold_count = 0u;
+        contact_count = 0u;
+        substep_demand = 0u;
+        colour_demand = 0u;
+    }
+    barrier();
+    uint pair = item_index();
+    if (pair < counters[k_counter_pair_count]) keep_colour(pair);
+    barrier();
+    if (!is_first || manifold_count == 0u) return;
+    atomicAdd(counters[k_counter_manifold_count], manifold_count);
+    atomicAdd(counters[k_counter_contact_count], contact_count);
+    atomicMax(counters[k_counter_substep_demand], substep_demand);
+    atomicMax(counters[k_counter_colour_demand], colour_demand);
 }

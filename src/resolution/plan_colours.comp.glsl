@@ -56,6 +56,7 @@ void main()
     counters[k_counter_launched_colours] = colours;
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;
+    counters[k_counter_launched_manifolds] = launches ? colour_offsets[k_overflow_colour + 1u] - colour_offsets[0] : 0u;
     arrivals[0] = 0u; // of solve_persistent
     counters[k_counter_graph_was_due] = due ? 1u : 0u;
     bool is_next_due = on == 0u || counters[k_counter_graph_due] == k_due_twice;

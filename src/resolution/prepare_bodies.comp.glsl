@@ -3,7 +3,8 @@
 // Where its island sleeps it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands.
 // Reads: Properties, Shapes, Substeps, IslandGroups, BodyColours.
-// Writes: Inertias, Deltas, WarmStarts, ToldLoads (none yet); Poses (flags), Velocities and Counters where a body falls asleep or wakes.
+// Writes: Inertias, Deltas, WarmStarts, ToldLoads (none yet); LaunchedBodies, in any order, and Counters; Poses (flags) and
+// Velocities where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -23,6 +24,7 @@ layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
+layout(std430) writeonly buffer LaunchedBodies { uint launched_bodies[]; };
 layout(std430) writeonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) writeonly buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) writeonly buffer ToldLoads { uint told_loads[]; };
@@ -53,6 +55,8 @@ void main()
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
+    if (is_in_launched_bodies(inertia))
+        launched_bodies[atomicAdd(counters[k_counter_launched_bodies], 1u)] = body;
     deltas[body] = pack(no_delta());
     warm_starts[body] = pack(no_warm_start(unpack(velocities[body])));
 }

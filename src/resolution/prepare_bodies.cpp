@@ -28,6 +28,10 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         state.inertias[body].traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
             state.inertias[body].traits |= k_trait_grouped;
+        if (is_in_launched_bodies(state.inertias[body])) {
+            const uint place = std::atomic_ref(state.counters[k_counter_launched_bodies]).fetch_add(1);
+            state.launched_bodies[place] = body;
+        }
         state.deltas[body] = no_delta();
         state.warm_starts[body] = no_warm_start(state.velocities[body]);
     });

@@ -88,19 +88,21 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 }
 
 void solve(Device& device, const StepPlan& plan) {
+    // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
+    if (plan.persistent_groups > 0)
+        device.run({.kernel = solve_persistent,
+                    .items = plan.persistent_groups * solve_persistent.items_a_group,
+                    .overlaps_next = plan.in_groups});
     if (plan.in_groups) {
         const Kernel& of_small = plan.bounces ? solve_bouncing_islands : solve_islands;
         const Kernel& of_large = plan.bounces ? solve_bouncing_groups : solve_island_groups;
-        device.run({.kernel = plan.small ? of_small : of_large, .slot = k_dispatch_islands});
         if (plan.singles)
-            device.run(
-                {.kernel = plan.bounces ? solve_bouncing_singles : solve_single_islands, .slot = k_dispatch_islands});
+            device.run({.kernel = plan.bounces ? solve_bouncing_singles : solve_single_islands,
+                        .slot = k_dispatch_islands,
+                        .overlaps_next = true});
+        device.run({.kernel = plan.small ? of_small : of_large, .slot = k_dispatch_islands});
     }
-    if (!plan.needs_launches() || plan.substep_capacity == 0) return;
-    if (plan.persistent_groups > 0) {
-        device.run({.kernel = solve_persistent, .items = plan.persistent_groups * solve_persistent.items_a_group});
-        return;
-    }
+    if (!plan.needs_launches() || plan.substep_capacity == 0 || plan.persistent_groups > 0) return;
     for_each_pass(
         plan.substep_capacity, plan.iterations, plan.relax,
         [&](uint substep) { device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {substep}}); },

@@ -3,7 +3,7 @@
 // after every colour. That costs less than a launch does, the code is fetched once, and where there are no more manifolds
 // than invocations each is loaded once. For worlds in which nothing bounces.
 // args.x: 1 to count how many groups can run at a time instead.
-// Reads: ColourOffsets, Hubs, Inertias, Shapes, Properties, Loads.
+// Reads: ColourOffsets, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
 // HubChanges, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; arrivals[0] is 0.
@@ -23,6 +23,7 @@ layout(local_size_x = 384) in; // fewer leave waits unfilled; more have too few 
 layout(std430) readonly buffer ColourOffsets { uint stored_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Hubs { uint hubs[]; };
+layout(std430) readonly buffer LaunchedBodies { uint launched_bodies[]; };
 layout(std430) coherent buffer HubChanges { HubChange hub_changes[]; };
 layout(std430) coherent buffer Velocities { BodyVelocityCells velocities[]; };
 
@@ -130,18 +131,16 @@ void finish_colour(uint colour, uint substep)
     hubs_move = true;
 }
 
-// A hub is its keeper's, which has moved it and need not wait to see that.
-bool is_workers(uint body)
-{
-    BodyInertia inertia = unpack(inertias[body]);
-    return is_launched(inertia) && (inertia.traits & k_trait_hub) == 0u;
-}
-
 void integrate_own_bodies(uint substep)
 {
+    // A hub is its keeper's, which has moved it and need not wait to see that.
     uint hub = gl_LocalInvocationID.x == k_hub_keeper ? gl_WorkGroupID.x : counters[k_counter_hub_count];
+    // Where most bodies are launched, to look at all of them is quicker than to ask a list which they are.
+    uint listed = counters[k_counter_launched_bodies];
+    bool looks_at_all = 2u * listed > parameters.body_count;
+    uint end = looks_at_all ? parameters.body_count : listed;
     uint next = worker();
-    while (hub < counters[k_counter_hub_count] || next < parameters.body_count) {
+    while (hub < counters[k_counter_hub_count] || next < end) {
         uint body;
         bool is_own;
         if (hub < counters[k_counter_hub_count]) {
@@ -149,8 +148,8 @@ void integrate_own_bodies(uint substep)
             is_own = is_launched(unpack(inertias[body]));
             hub += gl_NumWorkGroups.x;
         } else {
-            body = next;
-            is_own = is_workers(body);
+            body = looks_at_all ? next : launched_bodies[next];
+            is_own = is_in_launched_bodies(unpack(inertias[body]));
             next += gl_NumWorkGroups.x * gl_WorkGroupSize.x;
         }
         if (is_own) integrate_body(body, substep);

@@ -88,7 +88,10 @@ const uint k_counter_searched = 24u;       // 1 where this step had to search
 const uint k_counter_singles = 25u; // islands with too many bodies to share a work group, and few enough for one of their own
 const uint k_counter_graph_due = 26u; // not 0 where the last step's constraint graph is not this one's
 const uint k_counter_graph_was_due = 27u; // 1 where this step had to make its graph
-const uint k_counter_words = 28u;
+// Of what launches solve, as above: manifolds with a colour or in the overflow set, and bodies that are no hubs.
+const uint k_counter_launched_manifolds = 28u;
+const uint k_counter_launched_bodies = 29u;
+const uint k_counter_words = 30u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;

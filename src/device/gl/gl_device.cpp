@@ -220,7 +220,7 @@ void GlDevice::run_kernel(const Launch& launch) {
         bindings_.bind_dispatches(buffer(BufferId::Dispatches).name());
         glDispatchComputeIndirect(static_cast<GLintptr>(launch.slot * sizeof(Dispatch)));
     }
-    glMemoryBarrier(barriers);
+    if (!launch.overlaps_next) glMemoryBarrier(barriers);
     kernels_pending_ = true;
     ++launches;
 }
