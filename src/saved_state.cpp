@@ -107,6 +107,7 @@ void Simulation::restore(const SavedState& saved) {
     finished_count = saved.report.step;
     newest_report = saved.report;
     solved_count = static_cast<uint>(constraints.size());
+    plan.most_launched = k_none;
     pairs_last.begin_anew();
     graph_lasts.begin_anew();
     settings.broad_phase = saved.settings.broad_phase; // so that no search is due which was none before

@@ -30,6 +30,8 @@ constexpr uint k_most_substeps_of_large = 32;
 // Manifolds and iterations an invocation of the persistent launch: with more, launches for each colour are long enough
 // to be worth it, and all in one might be too long for a watchdog.
 constexpr uint k_most_manifolds_each = 64;
+// Bodies an invocation of it, where it had nothing to do of late.
+constexpr uint k_most_bodies_each = 32;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
@@ -340,10 +342,12 @@ StepPlan Simulation::plan_step(const Population& population) const {
     const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
     const std::uint64_t most = std::uint64_t{k_most_manifolds_each} * groups * solve_persistent.items_a_group;
     if (groups == 0 || passes > most) return now;
-    // Those that have nothing to do only make the wait longer, and take the room of launches beside it.
-    const std::uint64_t workers = std::min(2 * std::uint64_t{now.launched_items}, most);
-    const auto wanted = static_cast<uint>(workers / solve_persistent.items_a_group) + 1;
-    now.persistent_groups = std::min(groups, wanted);
+    // Those that have nothing to do only make the wait longer, and take the room of launches beside it. What wakes, or
+    // becomes one large island, shows some steps later: then no invocation shall have too much.
+    const std::uint64_t least = now.waking != Waking::None ? k_none : now.body_count / k_most_bodies_each;
+    const std::uint64_t workers = std::max(2 * std::uint64_t{now.most_launched}, least);
+    now.persistent_groups =
+        static_cast<uint>(std::min<std::uint64_t>(groups, workers / solve_persistent.items_a_group + 1));
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
     now.overflow = true;
     now.substep_capacity = now.most_substeps;
@@ -476,7 +480,9 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     const bool singles = counters[k_counter_singles] > 0;
     plan.overflow_count = std::max(plan.overflow_count, overflow_count);
     window_overflow = std::max(window_overflow, overflow_count);
-    plan.launched_items = std::max(counters[k_counter_launched_manifolds], counters[k_counter_launched_bodies]);
+    const uint launched = std::max(counters[k_counter_launched_manifolds], counters[k_counter_launched_bodies]);
+    plan.most_launched = std::max(plan.most_launched, launched);
+    window_launched = std::max(window_launched, launched);
     plan.singles = plan.singles || singles;
     window_singles = window_singles || singles;
     const uint wanted_colours = std::min(colours + 1, k_first_hub_colour); // one to spare
@@ -489,10 +495,11 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     plan.colour_capacity = window_colours;
     plan.substep_capacity = window_substeps;
     plan.overflow_count = window_overflow;
+    plan.most_launched = window_launched;
     plan.singles = window_singles;
     if (window_hub_manifolds == 0) plan.hub_capacity = 0;
     window_singles = false;
-    window_steps = window_overflow = window_colours = window_substeps = window_hub_manifolds = 0;
+    window_steps = window_overflow = window_launched = window_colours = window_substeps = window_hub_manifolds = 0;
 }
 
 void Simulation::make_room(void (Simulation::*grow)(uint), uint demand, uint wanted) {

@@ -158,7 +158,7 @@ private:
     uint window_colours = 0; ///< most colours since
     uint window_substeps = 0;
     uint window_hub_manifolds = 0;
-    uint window_overflow = 0;
+    uint window_overflow = 0, window_launched = 0;
     bool window_singles = false;
     StepReport newest_report;
     uint solved_count = 0;

@@ -14,7 +14,7 @@ void run_stage(Device& device, Stage stage, const StepPlan& plan) {
     device.begin_stage(stage);
     switch (stage) {
     case Stage::BroadPhase:
-        return broad_phase(device, plan); // world bounding boxes -> candidate pairs
+        return broad_phase(device, plan); // boxes -> candidate pairs
     case Stage::NarrowPhase:
         return narrow_phase(device, plan); // pairs -> manifolds, old impulses matched
     case Stage::ConstraintGraph:

@@ -19,7 +19,7 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr float k_margin = 0.02f; // m, how far ahead contacts are seen
+constexpr float k_margin = 0.012f; // m, how far ahead contacts are seen
 
 /// A box for the oracles.
 struct Solid {

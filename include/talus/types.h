@@ -111,7 +111,7 @@ struct BodyId {
     friend bool operator==(const BodyId&, const BodyId&) = default;
 };
 
-/// Two bodies whose bounding boxes overlap: the broad phase's result (the thesis's CollisionPair).
+/// Two bodies whose boxes may touch: the broad phase's result (the thesis's CollisionPair).
 struct CollisionPair {
     BodyId a; ///< has the lower index
     BodyId b; ///< the other one

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// World bounding boxes (thesis, section 3.2).
+// A body's own box, and its world bounding box (thesis, section 3.2).
 
 // How far beyond its shape a body looks for contacts (m): as far as it moves in a step, so that it stops at what it hits
 // instead of in it.
@@ -28,6 +28,16 @@ inline uint traits_of_body(BodyShape shape, BodyPose pose)
 inline bool is_placed(BodyPose pose, BodyShape shape)
 {
     return (pose.flags & k_body_placed) != 0u || !is_mover(shape);
+}
+
+// How far a body, or at most a point of it, comes by a movement and a turn, which is small. A sphere's turn changes
+// nothing for others.
+inline float way_of(vec3 movement, vec4 turn, BodyShape shape)
+{
+    float reach = is_sphere(shape) ? 0.0f : length3(shape.half_extents);
+    float half_angle = length3(vec3(turn.x, turn.y, turn.z));
+    precise float way = length3(movement) + 2.0f * half_angle * reach;
+    return way;
 }
 
 inline OrientedBox make_oriented_box(BodyPose pose, BodyVelocity velocity, BodyShape shape, Parameters p)

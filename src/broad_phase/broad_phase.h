@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Broad phase: world bounding boxes -> candidate pairs (thesis, section 3.2).
+// Broad phase: boxes -> candidate pairs (thesis, section 3.2).
 #pragma once
 
 #include "device/device.h"

@@ -14,17 +14,17 @@ inline OrientedBox with_skin(OrientedBox box)
     return box;
 }
 
-// Whether no point of a body has got further, with the margin that it has now, than the margin that it had: in any
-// direction, so that what kept two bodies apart along one still does. A rotation by the angle a about the centre moves the
-// corners by no more than 2 sin(a/2) times their distance from it, and sin(a/2) is the length of the quaternion's vector part.
-// What is not there any more meets nobody.
+// What of the skin is left to the rounding of all that is computed from it (m).
+const float k_rounding = 2.5e-4f;
+
+// Whether no point of a body has got further, with the margin that it has now, than the margin that it had: in any direction,
+// so that what kept two bodies apart along one still does. What is not there any more meets nobody.
 inline bool is_within(OrientedBox inner, OrientedBox outer)
 {
+    precise vec3 movement = inner.centre - outer.centre;
     vec4 back = vec4(-outer.rotation.x, -outer.rotation.y, -outer.rotation.z, outer.rotation.w);
-    vec4 turn = multiply_quaternions(back, inner.rotation);
-    precise vec3 way = inner.centre - outer.centre;
-    precise float reach = length3(way) + 2.0f * length3(vec3(turn.x, turn.y, turn.z)) * length3(inner.half_extents);
-    precise float margin = inner.margin + reach;
+    float way = way_of(movement, multiply_quaternions(inner.rotation, back), shape_of(inner));
+    precise float margin = inner.margin + way + k_rounding;
     bool same = inner.type == outer.type && inner.half_extents.x == outer.half_extents.x &&
                 inner.half_extents.y == outer.half_extents.y && inner.half_extents.z == outer.half_extents.z;
     return !is_present(shape_of(inner)) || (same && margin <= outer.margin);
@@ -52,15 +52,28 @@ inline BoxPair make_box_pair(vec3 centre_a, vec4 rotation_a, vec3 half_a, vec3 c
     return p;
 }
 
+inline float reach_along(Axes axes, vec3 half_extents, vec3 direction)
+{
+    precise float reach = abs(dot3(axes.x, direction)) * half_extents.x + abs(dot3(axes.y, direction)) * half_extents.y +
+                          abs(dot3(axes.z, direction)) * half_extents.z;
+    return reach;
+}
+
 // Separation along a unit direction: distance of the centres less the extents of both boxes.
 inline float separation_along(BoxPair p, vec3 direction)
 {
-    precise float reach_a = abs(dot3(p.a.x, direction)) * p.half_a.x + abs(dot3(p.a.y, direction)) * p.half_a.y +
-                            abs(dot3(p.a.z, direction)) * p.half_a.z;
-    precise float reach_b = abs(dot3(p.b.x, direction)) * p.half_b.x + abs(dot3(p.b.y, direction)) * p.half_b.y +
-                            abs(dot3(p.b.z, direction)) * p.half_b.z;
+    float reach_a = reach_along(p.a, p.half_a, direction);
+    float reach_b = reach_along(p.b, p.half_b, direction);
     precise float separation = abs(dot3(p.offset, direction)) - reach_a - reach_b;
     return separation;
+}
+
+// The extents of both are added first, so that the answer is the same for B and A, to the bit.
+inline bool is_beyond(BoxPair p, vec3 direction, float margins)
+{
+    precise float reach = reach_along(p.a, p.half_a, direction) + reach_along(p.b, p.half_b, direction);
+    precise float limit = reach + margins;
+    return abs(dot3(p.offset, direction)) > limit;
 }
 
 // Whether a face of one of two boxes has the other box beyond it, out of reach: then their shapes have no contact, though
@@ -68,8 +81,7 @@ inline float separation_along(BoxPair p, vec3 direction)
 inline bool faces_part(OrientedBox a, OrientedBox b)
 {
     BoxPair p = make_box_pair(a.centre, a.rotation, a.half_extents, b.centre, b.rotation, b.half_extents);
-    precise float reach = a.margin + b.margin;
-    float of_a = max(max(separation_along(p, p.a.x), separation_along(p, p.a.y)), separation_along(p, p.a.z));
-    float of_b = max(max(separation_along(p, p.b.x), separation_along(p, p.b.y)), separation_along(p, p.b.z));
-    return max(of_a, of_b) > reach;
+    precise float margins = a.margin + b.margin;
+    return is_beyond(p, p.a.x, margins) || is_beyond(p, p.a.y, margins) || is_beyond(p, p.a.z, margins) ||
+           is_beyond(p, p.b.x, margins) || is_beyond(p, p.b.y, margins) || is_beyond(p, p.b.z, margins);
 }

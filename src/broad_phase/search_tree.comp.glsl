@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body in sorted order: searches the tree for the boxes after its own that overlap it. Those that no face
-// keeps apart from it are its partners. The way through the tree is the sorted order itself, so there is no stack: a node that does not overlap is
-// passed over, one that does is entered at its first child. Neighbours in a group take much the same way.
+// keeps apart from it are its partners. The way through the tree is the sorted order itself, so there is no stack: a node
+// that does not overlap is passed over, one that does is entered at its first child. Neighbours in a group take much the
+// same way.
 // Run twice: args.x = 0 counts, and keeps the first k_kept_partners; 1 writes these at the scanned offset and goes on
 // from the last of them if there are more. args.y: the root's shift.
 // Reads: Counters, TreeNodes, TreeGrids, SortValues, OrientedBoxes.

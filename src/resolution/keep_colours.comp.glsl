@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
 // is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's.
-// Also counts manifolds and contact points.
+// Also counts manifolds and contact points, each group its own first.
 // Reads: Manifolds, ManifoldPoints, Shapes.
 // Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
 // Counters. The order of the list depends on who comes first; nothing that is made from it does.

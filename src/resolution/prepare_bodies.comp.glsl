@@ -2,7 +2,7 @@
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
 // Where its island sleeps it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands.
-// Reads: Properties, Shapes, Substeps, IslandGroups, BodyColours.
+// Reads: Counters, Poses, Velocities, Properties, Shapes, Substeps, IslandGroups, BodyColours.
 // Writes: Inertias, Deltas, WarmStarts, ToldLoads (none yet); LaunchedBodies, in any order, and Counters; Poses (flags) and
 // Velocities where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.

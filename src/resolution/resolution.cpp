@@ -89,7 +89,7 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 
 void solve(Device& device, const StepPlan& plan) {
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
-    if (plan.persistent_groups > 0)
+    if (plan.persistent_groups > 0 && plan.needs_launches())
         device.run({.kernel = solve_persistent,
                     .items = plan.persistent_groups * solve_persistent.items_a_group,
                     .overlaps_next = plan.in_groups});

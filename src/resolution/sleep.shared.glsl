@@ -41,16 +41,6 @@ inline BodyRest begin_rest(BodyPose pose)
     return rest;
 }
 
-// How far a body, or at most a point of it, comes by a movement and a turn, which is small. A sphere's turn changes
-// nothing for others.
-inline float way_of(vec3 movement, vec4 turn, BodyShape shape)
-{
-    float reach = is_sphere(shape) ? 0.0f : length3(shape.half_extents);
-    float half_angle = length3(vec3(turn.x, turn.y, turn.z));
-    precise float way = length3(movement) + 2.0f * half_angle * reach;
-    return way;
-}
-
 // Whether a body has gone too far from where its rest began, or of late, or moved too fast in this step to be said to rest.
 inline bool ends_rest(BodyPose pose, BodyDelta delta, BodyRest rest, BodyShape shape, Parameters p)
 {

@@ -3,7 +3,7 @@
 // after every colour. That costs less than a launch does, the code is fetched once, and where there are no more manifolds
 // than invocations each is loaded once. For worlds in which nothing bounces.
 // args.x: 1 to count how many groups can run at a time instead.
-// Reads: ColourOffsets, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
+// Reads: Counters, ColourOffsets, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
 // HubChanges, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; arrivals[0] is 0.
