@@ -153,7 +153,18 @@ private:
     std::mt19937 random{7};
 };
 
-class BroadPhases : public OnDevice {};
+class BroadPhases : public OnDevice {
+protected:
+    /// One for each broad phase.
+    std::array<World, 3> weightless_worlds() const {
+        const auto with = [this](BroadPhase kind) {
+            Settings settings = weightless();
+            settings.broad_phase = kind;
+            return make_world(settings);
+        };
+        return {with(BroadPhase::SweepAndPrune), with(BroadPhase::Bvh), with(BroadPhase::Brute)};
+    }
+};
 
 TEST_P(BroadPhases, agree_with_the_oracle_for_any_number_of_bodies) {
     World world = make_world(weightless());
@@ -224,10 +235,8 @@ std::pair<BodyId, BodyId> add_turned_cubes(World& world) {
 }
 
 TEST_P(BroadPhases, boxes_that_a_face_keeps_apart_are_no_pair) {
-    for (const BroadPhase kind : {BroadPhase::SweepAndPrune, BroadPhase::Bvh, BroadPhase::Brute}) {
-        Settings settings = weightless();
-        settings.broad_phase = kind;
-        World world = make_world(settings);
+    auto worlds = weightless_worlds();
+    for (World& world : worlds) {
         const auto [first, second] = add_turned_cubes(world);
         world.step();
         EXPECT_EQ(world.report().pairs, 0u);
@@ -240,10 +249,8 @@ TEST_P(BroadPhases, boxes_that_a_face_keeps_apart_are_no_pair) {
 
 // A cube that is turned by 45° turns further without leaving its bounding box.
 TEST_P(BroadPhases, a_box_that_turns_within_its_bounding_box_meets_its_neighbour) {
-    for (const BroadPhase kind : {BroadPhase::SweepAndPrune, BroadPhase::Bvh, BroadPhase::Brute}) {
-        Settings settings = weightless();
-        settings.broad_phase = kind;
-        World world = make_world(settings);
+    auto worlds = weightless_worlds();
+    for (World& world : worlds) {
         const auto [first, second] = add_turned_cubes(world);
         world.step(20);
         EXPECT_EQ(world.report().pairs, 0u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: whether it has left the box that the last search for pairs had of it. Then
-// pairs are searched for anew.
+// One invocation is a body slot: whether it has left the box that the last search for pairs had of it. Then pairs are
+// searched for anew.
 // Reads: Counters, Poses, Velocities, Shapes, OrientedBoxes.
 // Writes: Counters.
 // Needs: nothing.
