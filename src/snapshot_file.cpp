@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 7;
+constexpr std::uint32_t k_version = 8;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
@@ -126,7 +126,7 @@ void check(SavedState& state) {
     uint touching = 0;
     for (const Manifold& manifold : state.manifolds) {
         if (manifold.body_a >= manifold.body_b || manifold.body_b >= slots || manifold.point_count > 4 ||
-            manifold.colour > k_no_colour || manifold.substeps > 1000)
+            manifold.colour > k_no_colour || substeps_of(manifold.demand) > 1000)
             throw Error("a manifold is not one of its bodies");
         point_count += manifold.point_count;
         if (!is_active(manifold)) continue;

@@ -60,6 +60,7 @@ struct Items {
         s.parameters.gravity = vec3(0.0f, -9.81f, 0.0f);
         s.parameters.dt = 1.0f / 60.0f;
         s.parameters.inv_dt = 60.0f;
+        s.parameters.inverse_weight = 60.0f / 9.81f;
         s.parameters.contact_push_speed = 3.0f;
         s.parameters.contact_frequency = 6283.0f;
         s.parameters.contact_damping_ratio = 5.0f;
@@ -309,9 +310,10 @@ TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
 ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contact) {
     const Manifold& manifold = state.manifolds[contact.manifold];
     const BodyInertia &inertia_a = state.inertias[manifold.body_a], &inertia_b = state.inertias[manifold.body_b];
+    const float inverse_mass_a = state.velocities[manifold.body_a].inverse_mass;
+    const float inverse_mass_b = state.velocities[manifold.body_b].inverse_mass;
     ContactConstraint c = begin_constraint(manifold, contact.manifold, contact.colour, contact.hub_share,
-                                           state.velocities[manifold.body_a].inverse_mass,
-                                           state.velocities[manifold.body_b].inverse_mass, inertia_a, inertia_b);
+                                           inverse_mass_a, inverse_mass_b, inertia_a, inertia_b);
     const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * contact.manifold];
     for (uint i = 0; i < manifold.point_count; ++i)
         c = add_to_centre(c, points[i]);
@@ -320,7 +322,8 @@ ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contac
     c.friction_mass = friction_masses(meeting);
     for (uint i = 0; i < manifold.point_count; ++i)
         c = add_point(c, static_cast<int>(i), points[i], meeting, respond_to_normals(meeting));
-    return c;
+    return lift(c, force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters),
+                state.parameters);
 }
 
 TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
@@ -334,7 +337,8 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
         const ContactConstraint& c = items.constraints[i];
         const vec3 friction = items.vector(0.3f);
         manifolds.push_back({c.body_a, c.body_b, c.point_count, 0, c.normal, 0, 0.5f, 0.0f, friction.x, friction.y,
-                             friction.z, 1.0f + items.number(0.9f), 8, make_history(0, 1 + i % 5)});
+                             friction.z, 1.0f + items.number(0.9f), 1.0f + items.number(0.9f),
+                             make_demand(8, 0, 1 + i % 5)});
         for (uint k = 0; k < 4; ++k) // those that are not there may be anything
             points.push_back({items.vector(0.5f), k < c.point_count ? items.number(0.02f) : NAN, items.vector(0.5f), k,
                               items.vector(5.0f), items.number(1.0f) + 1.0f});

@@ -290,41 +290,49 @@ TEST(Math, a_heavy_load_is_damped_in_proportion_and_pushed_apart_more_slowly) {
 
 TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {
     const Parameters p = parameters_for(Settings{});
-    EXPECT_EQ(wanted_substeps(0.0f, k_unknown_height, p), 8u);
-    EXPECT_EQ(wanted_substeps(14.0f, k_unknown_height, p), 8u);
-    EXPECT_EQ(wanted_substeps(1e30f, k_unknown_height, p), 128u);
+    EXPECT_EQ(substeps_for(needed_substeps(0.0f, k_unknown_height, false), p), 8u);
+    EXPECT_EQ(substeps_for(needed_substeps(14.0f, k_unknown_height, false), p), 8u);
+    EXPECT_EQ(substeps_for(needed_substeps(1e30f, k_unknown_height, false), p), 128u);
     uint before = 8;
     for (float weights = 0.0f; weights < 200.0f; weights += 0.25f) {
-        const uint substeps = wanted_substeps(weights, k_unknown_height, p);
+        const uint substeps = substeps_for(needed_substeps(weights, k_unknown_height, false), p);
         EXPECT_GE(substeps, before) << weights;
-        EXPECT_LE(substeps, std::max(8.0f, 1.5f * std::max(0.45f * weights, 0.0901f * std::pow(weights, 1.5f))))
+        EXPECT_LE(substeps, std::max(8.0f, 1.5f * std::max(std::sqrt(weights), 0.0901f * std::pow(weights, 1.5f))))
             << weights;
         EXPECT_GE(static_cast<float>(substeps), std::min(128.0f, 0.0899f * std::pow(weights, 1.5f))) << weights;
         before = substeps;
     }
     // A low column of heavily loaded contacts: 40 weights on a single one, and on ten.
-    EXPECT_EQ(wanted_substeps(40.0f, 1, p), 12u);
-    EXPECT_EQ(wanted_substeps(40.0f, 10, p), 12u);
-    EXPECT_EQ(wanted_substeps(40.0f, 40, p), 24u);
-    EXPECT_EQ(wanted_substeps(40.0f, 41, p), 24u) << "it is no higher than its load says";
-    EXPECT_EQ(wanted_substeps(1000.0f, 1, p), 48u) << "its contact may sink by 2 mm";
+    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1, false), p), 8u);
+    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 10, false), p), 12u);
+    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 40, false), p), 24u);
+    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 41, false), p), 24u) << "it is no higher than its load says";
+    EXPECT_EQ(substeps_for(needed_substeps(1000.0f, 1, false), p), 32u) << "its contact may sink by 4.4 mm";
+    EXPECT_EQ(substeps_for(needed_substeps(1000.0f, 1, true), p), 16u) << "the ground is stiffer";
     Settings few;
     few.substeps = few.max_substeps = 7;
-    EXPECT_EQ(wanted_substeps(500.0f, k_unknown_height, parameters_for(few)), 7u) << "a number of the caller's";
+    EXPECT_EQ(substeps_for(needed_substeps(500.0f, k_unknown_height, false), parameters_for(few)), 7u)
+        << "a number of the caller's";
 }
 
 TEST(Math, the_height_of_a_column_is_told_from_above) {
-    EXPECT_EQ(height_of_column(0, 0), 1u) << "nothing stands on it";
-    EXPECT_EQ(height_of_column(k_enough_told, 11), 12u);
-    EXPECT_EQ(height_of_column(k_enough_told - 1, 11), 1u) << "less than three times its own mass";
-    EXPECT_EQ(height_of_column(k_enough_told, k_unknown_height), k_unknown_height);
+    EXPECT_EQ(height_of_column(0, 0, 0), 1u) << "nothing stands on it";
+    const uint twenty = 20 * k_own_mass;
+    EXPECT_EQ(height_of_column(twenty, 11, twenty + k_own_mass), 12u);
+    EXPECT_EQ(height_of_column(k_enough_told - 1, 11, k_own_mass), 1u) << "less than three times its own mass";
+    EXPECT_EQ(height_of_column(twenty, k_unknown_height, twenty), k_unknown_height);
+    EXPECT_EQ(height_of_column(twenty, 40, 5 * twenty + k_own_mass), 21u)
+        << "four fifths join from the side: 40 / 2 + 1";
+    EXPECT_EQ(height_of_column(twenty, 40, twenty / 2), 41u) << "it stands on two";
+    for (uint height = 1; height < 254; ++height) // of a tower
+        ASSERT_EQ(height_of_column(max(height, 3u) * k_own_mass, height, (height + 1) * k_own_mass), height + 1);
     // 5.6 weights of the lighter of 1 kg and 2 kg are 2.8 times the heavier one's mass.
     EXPECT_EQ(told_mass(5.6f, 0.5f, 1.0f), 44u);
     EXPECT_EQ(told_mass(2.03f, 1.0f, 0.5f), 32u);
     EXPECT_EQ(told_mass(2.03f, 1.0f, 0.0f), 32u) << "pressed by what cannot be pushed";
-    EXPECT_EQ(told_mass(k_most_weights, 1e6f, 1e-6f), k_enough_told) << "more would make no difference";
-    EXPECT_EQ(idle_steps_of(make_history(2007, 255)), 2007u);
-    EXPECT_EQ(height_of(make_history(2007, 255)), 255u);
+    EXPECT_EQ(told_mass(k_most_weights, 1e6f, 1e-6f), k_most_told);
+    EXPECT_EQ(idle_steps_of(make_demand(1000, 2007, 255)), 2007u);
+    EXPECT_EQ(height_of(make_demand(1000, 2007, 255)), 255u);
 }
 
 /// One point, or many on a lever, that press with this force and torque limit.

@@ -12,7 +12,7 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
 #include "resolution/sleep.shared.glsl"
-#include "resolution/softness.shared.glsl"
+#include "resolution/load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "narrow_phase/contact_geometry.shared.glsl"
 #include "narrow_phase/polygon.glsl"

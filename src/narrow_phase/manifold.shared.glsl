@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From two bodies to a manifold: the table of shape pairs, the material, and the impulses of the last step.
-// Needs resolution/contact_frame.shared.glsl and resolution/softness.shared.glsl.
+// Needs resolution/contact_frame.shared.glsl and resolution/load.shared.glsl.
 
 // One entry a pair of shapes. A new shape adds its entries here. `known`: of two boxes, or no_query().
 inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
@@ -66,8 +66,8 @@ inline Manifold make_sensed(Manifold manifold)
     sensed.tangent_impulse_2 = 0.0f;
     sensed.twist_impulse = 0.0f;
     sensed.weights = 0.0f;
-    sensed.substeps = 0u;
-    sensed.history = 0u;
+    sensed.lasting_weights = 0.0f;
+    sensed.demand = 0u;
     return sensed;
 }
 
@@ -163,8 +163,7 @@ inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, u
 inline Manifold begin_trial(Manifold manifold, Parameters p)
 {
     if (dot3(p.gravity, p.gravity) == 0.0f) return manifold;
-    manifold.substeps = p.most_substeps;
-    manifold.history = make_history(k_trial, k_unknown_height);
+    manifold.demand = make_demand(p.most_substeps, k_trial, k_unknown_height);
     return manifold;
 }
 
@@ -183,8 +182,8 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, BodyProperties a, Bo
     manifold.tangent_impulse_2 = 0.0f;
     manifold.twist_impulse = 0.0f;
     manifold.weights = 0.0f;
-    manifold.substeps = 0u;
-    manifold.history = 0u;
+    manifold.lasting_weights = 0.0f;
+    manifold.demand = 0u;
     return manifold;
 }
 
@@ -204,8 +203,8 @@ inline Manifold no_manifold(Pair pair)
     manifold.tangent_impulse_2 = 0.0f;
     manifold.twist_impulse = 0.0f;
     manifold.weights = 0.0f;
-    manifold.substeps = 0u;
-    manifold.history = 0u;
+    manifold.lasting_weights = 0.0f;
+    manifold.demand = 0u;
     return manifold;
 }
 
@@ -221,7 +220,8 @@ inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)
     manifold.tangent_impulse_2 = dot3(sideways, frame.y);
     manifold.twist_impulse = old.twist_impulse;
     manifold.weights = old.weights;
-    manifold.substeps = min(old.substeps, p.most_substeps); // which the caller may have lowered
-    manifold.history = old.history;
+    manifold.lasting_weights = old.lasting_weights;
+    uint substeps = min(substeps_of(old.demand), p.most_substeps); // which the caller may have lowered
+    manifold.demand = make_demand(substeps, idle_steps_of(old.demand), height_of(old.demand));
     return manifold;
 }

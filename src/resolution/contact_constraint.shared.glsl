@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From a manifold to the solver's record of it, and back.
-// Needs resolution/manifold_rows.shared.glsl, hub.shared.glsl, softness.shared.glsl and island.shared.glsl.
+// Needs resolution/manifold_rows.shared.glsl, hub.shared.glsl, softness.shared.glsl, load.shared.glsl and island.shared.glsl.
 
 // Whether a pair is one of those that a launch is for.
 inline bool is_among(uint pair, uint first, uint count) { return pair >= first && pair - first < count; }
@@ -99,6 +99,15 @@ inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint poi
     return c;
 }
 
+// After all points: see lift_of.
+inline ContactConstraint lift(ContactConstraint c, float force, Parameters p)
+{
+    float by = lift_of(force, sum4(c.normal_mass), c.substeps, is_against_static(c.traits), p);
+    precise vec4 lifted = c.base_separation - by;
+    c.base_separation = lifted;
+    return c;
+}
+
 // ---- from a constraint back to its manifold ----
 
 // What a point passes on: the last sub-step's impulse, taken for all of them. One that was hit in the last sub-steps
@@ -120,63 +129,86 @@ inline uint colour_of_step(uint key, uint its_traits)
 // ---- the load ----
 
 // Where the normal is level either may be.
-inline bool is_b_below(Manifold manifold, Parameters p) { return dot3(manifold.normal, p.gravity) > 0.0f; }
+inline bool is_b_below(ContactConstraint c, Parameters p) { return dot3(c.normal, p.gravity) > 0.0f; }
 
-inline uint body_above(Manifold manifold, Parameters p)
+inline uint body_above(ContactConstraint c, Parameters p) { return is_b_below(c, p) ? c.body_a : c.body_b; }
+
+// What leans more than 37 degrees from the plumb line, or on something whose centre is higher, is no storey of a column: in a
+// heap bodies are each below the other by such contacts, and columns grew without end.
+inline bool is_storey(ContactConstraint c, Parameters p)
 {
-    return is_b_below(manifold, p) ? manifold.body_a : manifold.body_b;
+    precise vec3 between = (c.centre_a - c.centre_b) + c.gap; // from A's centre to B's
+    float fall = dot3(c.normal, p.gravity);
+    precise float steepness = fall * p.inverse_weight * p.dt; // the cosine of the angle
+    precise float agreement = fall * dot3(between, p.gravity);
+    return steepness * steepness >= 0.64f && agreement > 0.0f;
 }
 
-// What a manifold tells the body below it, see softness.shared.glsl.
+// What a manifold tells the body below it, see load.shared.glsl.
 struct LoadBelow {
     uint body;
     uint mass; // 0: it tells nothing, as to what cannot be pushed
 };
 
-inline LoadBelow load_below(Manifold manifold, float inverse_mass_a, float inverse_mass_b, Parameters p)
+inline LoadBelow load_below(ContactConstraint c, float weights, float inverse_mass_a, float inverse_mass_b, Parameters p)
 {
-    bool b_below = is_b_below(manifold, p);
+    bool b_below = is_b_below(c, p);
     float inverse_mass_below = choose(b_below, inverse_mass_b, inverse_mass_a);
     float inverse_mass_above = choose(b_below, inverse_mass_a, inverse_mass_b);
-    uint mass = told_mass(manifold.weights, inverse_mass_below, inverse_mass_above);
+    uint mass = told_mass(weights, inverse_mass_below, inverse_mass_above);
     LoadBelow load;
-    load.body = choose(b_below, manifold.body_b, manifold.body_a);
-    load.mass = choose(inverse_mass_below > 0.0f, mass, 0u);
+    load.body = choose(b_below, c.body_b, c.body_a);
+    load.mass = choose(inverse_mass_below > 0.0f && is_storey(c, p), mass, 0u);
     return load;
 }
 
+// What the body above has been told: see load.shared.glsl.
+inline uint column_height(ContactConstraint c, float weights, float inverse_mass_a, float inverse_mass_b, uint mass_told,
+                          uint height_told, Parameters p)
+{
+    bool b_below = is_b_below(c, p);
+    uint carried = told_mass(weights, b_below ? inverse_mass_a : inverse_mass_b, b_below ? inverse_mass_b : inverse_mass_a);
+    return is_storey(c, p) ? height_of_column(mass_told, height_told, carried) : 1u;
+}
+
 // The sub-steps that a load asks for in the next step. `height`: of the column that carries it.
-inline Manifold follow_load(Manifold manifold, float weights, uint height, Parameters p)
+inline Manifold follow_load(Manifold manifold, float weights, uint height, bool against_static, Parameters p)
 {
     float mean = next_mean_load(manifold.weights, weights);
-    uint idle_steps = idle_steps_of(manifold.history);
+    uint substeps = substeps_of(manifold.demand);
+    uint idle_steps = idle_steps_of(manifold.demand);
     bool grows = idle_steps >= k_growing;
     bool on_trial = idle_steps >= k_trial && !grows;
     if (on_trial) height = k_unknown_height;
-    uint wanted = wanted_substeps(mean, height, p);
-    bool idle = on_trial || 2u * wanted <= manifold.substeps;
-    if (wanted > manifold.substeps) {
+    float needed = needed_substeps(mean, height, against_static);
+    uint wanted = substeps_for(needed, p);
+    bool half_would_do = on_trial || 2u * wanted <= substeps;
+    uint fewer = half_would_do ? max(wanted, substeps / 2u) : fewer_substeps(substeps, p);
+    precise float with_some_to_spare = k_to_spare * needed;
+    bool idle = half_would_do || (fewer < substeps && with_some_to_spare <= float(fewer));
+    if (wanted > substeps) {
         idle_steps = grows ? idle_steps + 1u : k_growing + 1u;
         if (idle_steps == k_growing + k_growing_steps) {
-            manifold.substeps = more_substeps(manifold.substeps, p);
+            substeps = more_substeps(substeps, p);
             idle_steps = 0u;
         }
     } else {
         uint patience = on_trial ? k_trial + k_trial_steps : k_patience;
         idle_steps = !idle ? 0u : grows ? 1u : idle_steps + 1u;
         if (idle_steps >= patience) {
-            manifold.substeps = max(wanted, manifold.substeps / 2u);
-            idle_steps = manifold.substeps > wanted ? patience - k_halving_steps : 0u;
+            substeps = fewer;
+            idle_steps = substeps > wanted ? patience - k_halving_steps : 0u;
         }
     }
     manifold.weights = mean;
-    manifold.history = make_history(idle_steps, height);
+    manifold.lasting_weights = next_lasting_load(manifold.lasting_weights, mean, on_trial);
+    manifold.demand = make_demand(substeps, idle_steps, height);
     return manifold;
 }
 
-// Impulses of the whole step, and what follows from their load. `height`: of the column that carries it.
+// Impulses of the whole step, and what follows from their load. What the body above has been told: see column_height.
 inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
-                               float inverse_mass_b, uint height, Parameters p)
+                               float inverse_mass_b, uint mass_told, uint height_told, Parameters p)
 {
     precise float whole = float(c.substeps);
     precise vec3 friction = c.friction_impulse * whole;
@@ -184,5 +216,6 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 nor
     manifold.tangent_impulse_2 = friction.y;
     manifold.twist_impulse = friction.z;
     float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
-    return follow_load(manifold, weights, height, p);
+    uint height = column_height(c, manifold.weights, inverse_mass_a, inverse_mass_b, mass_told, height_told, p);
+    return follow_load(manifold, weights, height, is_against_static(c.traits), p);
 }

@@ -12,6 +12,7 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/sleep.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/load.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 1024) in;
@@ -131,7 +132,7 @@ void main()
             uint body_a = manifolds[pair].body_a;
             island = roots[is_movable(shapes[body_a]) ? body_a : manifolds[pair].body_b];
             if (island != k_none) {
-                atomicMax(most_substeps[island], manifolds[pair].substeps);
+                atomicMax(most_substeps[island], substeps_of(manifolds[pair].demand));
             } else { // it sleeps, and wakes with the colour that it has
                 manifolds[pair].colour = colour;
                 atomicAdd(counters[k_counter_sleeping_manifolds], 1u);

@@ -53,7 +53,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
             Manifold& manifold = state.manifolds[pair];
             island = state.islands[movable(manifold.body_a) ? manifold.body_a : manifold.body_b];
             if (island != k_none) {
-                state.substeps[island] = max(state.substeps[island], manifold.substeps);
+                state.substeps[island] = max(state.substeps[island], substeps_of(manifold.demand));
             } else { // it sleeps, and wakes with the colour that it has
                 manifold.colour = colour;
                 ++state.counters[k_counter_sleeping_manifolds];

@@ -6,7 +6,9 @@
 // Writes: Islands, Substeps, IslandFill. Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_islands.
 // Overflow: none.
+#include "state/math.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/load.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -54,8 +56,8 @@ void main()
     if (!is_active(manifold)) return;
     bool pushes_a = islands[manifold.body_a] != k_none;
     bool pushes_b = islands[manifold.body_b] != k_none;
-    if (pushes_a) atomicMax(substeps[manifold.body_a], manifold.substeps);
-    if (pushes_b) atomicMax(substeps[manifold.body_b], manifold.substeps);
+    if (pushes_a) atomicMax(substeps[manifold.body_a], substeps_of(manifold.demand));
+    if (pushes_b) atomicMax(substeps[manifold.body_b], substeps_of(manifold.demand));
     if (pushes_a && pushes_b) join(manifold.body_a, manifold.body_b);
     if (!pushes_a && island_fill[manifold.body_a] == k_awake) island_fill[manifold.body_b] = k_awake;
     if (!pushes_b && island_fill[manifold.body_b] == k_awake) island_fill[manifold.body_a] = k_awake;

@@ -13,8 +13,8 @@ static void join_islands_on_cpu(CpuState& state, const Launch&) {
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
         if (!is_active(manifold)) continue;
-        if (islands[a] != k_none) state.substeps[a] = max(state.substeps[a], manifold.substeps);
-        if (islands[b] != k_none) state.substeps[b] = max(state.substeps[b], manifold.substeps);
+        if (islands[a] != k_none) state.substeps[a] = max(state.substeps[a], substeps_of(manifold.demand));
+        if (islands[b] != k_none) state.substeps[b] = max(state.substeps[b], substeps_of(manifold.demand));
         if (islands[a] == k_none && state.island_fill[a] == k_awake) state.island_fill[b] = k_awake;
         if (islands[b] == k_none && state.island_fill[b] == k_awake) state.island_fill[a] = k_awake;
         if (islands[a] != k_none && islands[b] != k_none) join_islands_of(islands, a, b);

@@ -10,6 +10,7 @@
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/load.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -49,7 +50,7 @@ void keep_colour(uint pair)
     if (is_active(manifold)) {
         atomicAdd(manifold_count, 1u);
         atomicAdd(contact_count, manifold.point_count);
-        atomicMax(substep_demand, manifold.substeps);
+        atomicMax(substep_demand, substeps_of(manifold.demand));
         colour = manifold.colour;
         bool both_movable = is_movable(shapes[manifold.body_a]) && is_movable(shapes[manifold.body_b]);
         if (is_kept(colour, both_movable, parameters.usable_colours)) {

@@ -22,7 +22,8 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
         if (is_active(manifold)) {
             ++state.counters[k_counter_manifold_count];
             state.counters[k_counter_contact_count] += manifold.point_count;
-            state.counters[k_counter_substep_demand] = max(state.counters[k_counter_substep_demand], manifold.substeps);
+            state.counters[k_counter_substep_demand] =
+                max(state.counters[k_counter_substep_demand], substeps_of(manifold.demand));
             colour = manifold.colour;
             const bool both_movable =
                 is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]);

@@ -152,7 +152,7 @@ TALUS_LANE Manifold manifolds_at(const CpuState& state, const std::uint32_t* pla
             friction.w,
             rest.x,
             rest.y,
-            floatBitsToUint(rest.z),
+            rest.z,
             floatBitsToUint(rest.w)};
 }
 
@@ -202,13 +202,6 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     const Lanes inverse_mass_a = gather(state.velocities.data, body_a, 0).w;
     const Lanes inverse_mass_b = gather(state.velocities.data, body_b, 0).w;
 
-    const LoadBelow load = load_below(manifold, inverse_mass_a, inverse_mass_b, state.parameters);
-    const ULanes height = height_of(manifold.history);
-    for (std::uint32_t tells = lanes & bits_of(load.mass != 0u); tells != 0; tells &= tells - 1) {
-        const int lane = __builtin_ctz(tells);
-        tell_load(state, {load.body.v[lane], load.mass.v[lane]}, height.v[lane]);
-    }
-
     ContactConstraint c = begin_constraint(manifold, ULanes(manifold_indices), ULanes(colours), Lanes(hub_shares),
                                            inverse_mass_a, inverse_mass_b, inertia_a, inertia_b);
     const auto has_point = [&](std::uint32_t i) __attribute__((always_inline)) {
@@ -217,11 +210,20 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     for (std::uint32_t i = 0; i < 4; ++i)
         c = choose(has_point(i), add_to_centre(c, points_at(state, points[i])), c);
     c = end_centre(c, three_of(gather(state.poses.data, body_a, 0)), three_of(gather(state.poses.data, body_b, 0)));
+
+    const LoadBelow load = load_below(c, manifold.weights, inverse_mass_a, inverse_mass_b, state.parameters);
+    const ULanes height = height_of(manifold.demand);
+    for (std::uint32_t tells = lanes & bits_of(load.mass != 0u); tells != 0; tells &= tells - 1) {
+        const int lane = __builtin_ctz(tells);
+        tell_load(state, {load.body.v[lane], load.mass.v[lane]}, height.v[lane]);
+    }
+
     const Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     const NormalResponse response = respond_to_normals(meeting);
     for (std::uint32_t i = 0; i < 4; ++i)
         c = choose(has_point(i), add_point(c, static_cast<int>(i), points_at(state, points[i]), meeting, response), c);
+    c = lift(c, force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters), state.parameters);
     put_constraints(state, places, lanes, c);
 }
 

@@ -11,6 +11,7 @@
 #include "resolution/hub_load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/load.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
 #include "resolution/island.shared.glsl"
@@ -58,7 +59,6 @@ void main()
     Manifold manifold = unpack(manifolds[manifold_index]);
     float inverse_mass_a = unpack(velocities[manifold.body_a]).inverse_mass;
     float inverse_mass_b = unpack(velocities[manifold.body_b]).inverse_mass;
-    tell_load(load_below(manifold, inverse_mass_a, inverse_mass_b, parameters), height_of(manifold.history));
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
     uint colour = colour_of_key(manifold_keys[index]);
@@ -70,6 +70,7 @@ void main()
         c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]));
     }
     c = end_centre(c, unpack(poses[manifold.body_a]).position, unpack(poses[manifold.body_b]).position);
+    tell_load(load_below(c, manifold.weights, inverse_mass_a, inverse_mass_b, parameters), height_of(manifold.demand));
     Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     NormalResponse response = respond_to_normals(meeting);
@@ -77,5 +78,6 @@ void main()
         if (i >= manifold.point_count) continue;
         c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), meeting, response);
     }
+    c = lift(c, force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters), parameters);
     pack_ContactConstraint(constraints, index, c);
 }

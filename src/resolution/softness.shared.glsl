@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sub-steps: how many a load asks for, and how soft contacts are in them. docs/solver.md has the derivation.
+// How soft contacts are in a sub-step. docs/solver.md has the derivation; load.shared.glsl has how many sub-steps there are.
 
 struct Softness {
     float bias_rate;     // 1/s
@@ -54,10 +54,17 @@ inline float substep_length(uint substeps, Parameters p)
     return h;
 }
 
-// A contact's frequency is an eighth of the sub-step rate, the stiffest that does not ring, and at most
-// contact_frequency (rad/s); twice that against a body that cannot be pushed. Baumgarte's rows are rigid, with the
-// bias rate of equation 3.17. The damping ratio is meant for the mass that swings on the contact, so that it grows with
-// the root of that. `load_speed`: see load_speed_so_far in contact.shared.glsl.
+// rad/s: an eighth of the sub-step rate, the stiffest that does not ring, and at most Parameters::contact_frequency; twice
+// that against a body that cannot be pushed.
+inline float contact_frequency_at(uint substeps, bool against_static, Parameters p)
+{
+    precise float eighth = 0.785398163f * (p.inv_dt * float(substeps)); // 2 pi / 8
+    precise float w = min(eighth, p.contact_frequency) * choose(against_static, 2.0f, 1.0f);
+    return w;
+}
+
+// Baumgarte's rows are rigid, with the bias rate of equation 3.17. The damping ratio is meant for the mass that swings on the
+// contact, so that it grows with the root of that. `load_speed`: see load_speed_so_far in contact.shared.glsl.
 inline Substep make_substep(uint substeps, bool against_static, float load_speed, Parameters p)
 {
     Substep s;
@@ -73,8 +80,7 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
         s.let_go = 0.0f;
         return s;
     }
-    precise float eighth = 0.785398163f * inv_h; // 2 pi / 8
-    precise float w = min(eighth, p.contact_frequency) * choose(against_static, 2.0f, 1.0f);
+    float w = contact_frequency_at(substeps, against_static, p);
     float heavy = heaviness(load_speed);
     precise float damping_ratio = p.contact_damping_ratio * square_root(heavy);
     s.soft = soft_row(w, damping_ratio, h);
@@ -85,116 +91,20 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
     return s;
 }
 
-// ---- how many ----
+// ---- lift ----
 
-// A load of N weights is that of a tower of N boxes. One of 1 m boxes buckles beyond N = 6 n^(2/3) at n sub-steps
-// (solver.md), so that n follows N^1.5; the linear part keeps short towers from sinking by more than a centimetre or
-// two. Where no more than H contacts above each other carry the load, they are a column of that height, with what it carries
-// beside itself on its end: that buckles it 7.84 / (pi^2 / 4) = 3.2 times as easily as its own weight. It sinks as if n followed
-// sqrt(H N), and a single contact under a heavy body by N g / (47 n)^2, which is to be less than 2 mm.
-const float k_substeps_against_sag = 0.45f;
-const float k_substeps_against_overlap = 1.5f;
-const float k_substeps_against_buckling = 0.09f;
-const float k_end_load = 3.2f; // Timoshenko and Gere, "Theory of Elastic Stability" (1961): of a column's own weight
+// A soft contact gives way to its load F by F / (w^2 m), with m the sum of its points' effective masses. Most of what it would
+// give way to its mean load is taken for the distance at which the surfaces begin to push, so that under this load
+// they touch where the shapes do. What the load does within a few steps meets the same spring as before. A part is
+// left: contacts that carried a load together would pass it on to and fro if each kept its distance exactly.
+const float k_lifted_share = 0.75f; // a spring of four times the stiffness, to what lasts
+const float k_most_lift = 0.005f;   // m
 
-// More sub-steps are had after so many steps in a row that asked for more, and then no more than the next number in use:
-// contacts that become much stiffer while they are deep throw back what has pressed them together.
-const uint k_growing = 2000u;    // idle steps count up from here while more are asked for
-const uint k_growing_steps = 8u;
-// Fewer are had only after so many steps in a row in which half would have done: a change of stiffness shakes what stands,
-// which changes the load, and without patience a tower never came to rest.
-const uint k_patience = 64u;
-// What stands where the caller has put it is given the most until its load is known: with few sub-steps a tower would
-// be shaken while the load builds up.
-const uint k_trial = 1000u;      // idle steps count up from here in a trial
-const uint k_trial_steps = 32u;
-const uint k_halving_steps = 8u; // to half of that at a time
-
-// The numbers in use are apart by half or a third, up to the most: least, 1.5 least, 2 least, 3 least, 4 least, ...
-inline uint substep_level(uint level, uint least)
+inline float lift_of(float force, float effective_mass, uint substeps, bool against_static, Parameters p)
 {
-    uint whole = least << (level / 2u);
-    return (level & 1u) == 0u ? whole : whole + whole / 2u;
+    float w = contact_frequency_at(substeps, against_static, p);
+    precise float stiffness = w * w * effective_mass;
+    precise float lift = k_lifted_share * force * reciprocal(stiffness);
+    float most = p.baumgarte > 0.0f ? 0.0f : k_most_lift; // its rows are rigid
+    return choose(stiffness > 0.0f, min(lift, most), 0.0f);
 }
-
-// The next number in use.
-inline uint more_substeps(uint substeps, Parameters p)
-{
-    for (uint level = 0u; level < 16u; level += 1u) {
-        uint more = substep_level(level, p.least_substeps);
-        if (more > substeps) return min(more, p.most_substeps);
-    }
-    return p.most_substeps;
-}
-
-// The lowest number that is enough for a load, and for the height of what carries it.
-inline uint wanted_substeps(float weights, uint height, Parameters p)
-{
-    precise float high = min(float(height), weights);
-    precise float bending = high + k_end_load * (weights - high);
-    precise float against_buckling = k_substeps_against_buckling * high * square_root(bending);
-    precise float against_sag = k_substeps_against_sag * square_root(high * weights);
-    precise float against_overlap = k_substeps_against_overlap * square_root(weights);
-    float wanted = max(max(against_sag, against_overlap), against_buckling);
-    for (uint level = 0u; level < 16u; level += 1u) {
-        uint substeps = substep_level(level, p.least_substeps);
-        if (substeps >= p.most_substeps) return p.most_substeps;
-        if (float(substeps) >= wanted) return substeps;
-    }
-    return p.most_substeps;
-}
-
-const float k_most_weights = 1.0e6f; // with next to no gravity they would leave the range of a float
-
-// How many weights of the lighter body press a manifold together: both bodies carry that at least. `impulse` is that of
-// the whole step.
-inline float weights_on(float impulse, float inverse_mass_a, float inverse_mass_b, Parameters p)
-{
-    precise float weights = impulse * max(inverse_mass_a, inverse_mass_b) * p.inverse_weight;
-    return min(weights, k_most_weights);
-}
-
-// ---- the mean load ----
-
-// The load is a running mean over the steps. An impact is no load: while a heavy body is stopped by a light one it
-// presses with thousands of weights, and overlaps. With many more sub-steps, and so with much stiffer contacts, in the
-// next step the overlap would throw it back faster than it came. So a step counts as twice the mean and a little at
-// most, and a load that stays is known within a few steps more.
-const float k_newest_weight = 0.125f; // share of the newest step
-const float k_sudden_weights = 8.0f;  // for these 8 sub-steps are plenty
-
-inline float next_mean_load(float mean, float newest)
-{
-    precise float counted = min(newest, 2.0f * mean + k_sudden_weights);
-    precise float next = mean + k_newest_weight * (counted - mean);
-    return next;
-}
-
-// ---- the height of what carries a load ----
-//
-// Contacts tell the body below them what mass presses on them, and how high the column is that they are the foot of. Where a
-// body carries three times its own mass and more, what stands below it is part of the highest of these columns; else it is the
-// end load of a new one. So the height of a tower is known from the top down, one contact a step. In ToldLoads each body has
-// two words: k_told_mass, a sum, and k_told_height, a maximum.
-
-const uint k_unknown_height = 255u; // also of all that are higher
-
-// 16 for a mass like the body's own. No contact needs to tell more than what is enough, and so a sum stays a number.
-const uint k_enough_told = 48u;
-
-// `weights`: of the contact, in those of its lighter body.
-inline uint told_mass(float weights, float inverse_mass_below, float inverse_mass_above)
-{
-    precise float own_masses = weights * inverse_mass_below * reciprocal(max(inverse_mass_below, inverse_mass_above));
-    return uint(min(16.0f * own_masses, float(k_enough_told)));
-}
-
-inline uint height_of_column(uint mass_told, uint height_told)
-{
-    return mass_told < k_enough_told ? 1u : min(height_told + 1u, k_unknown_height);
-}
-
-// Manifold::history: steps in a row in which half the sub-steps would have done, and the height of the column.
-inline uint make_history(uint idle_steps, uint height) { return idle_steps | height << 16u; }
-inline uint idle_steps_of(uint history) { return history & 0xffffu; }
-inline uint height_of(uint history) { return history >> 16u; }

@@ -10,6 +10,7 @@
 #include "resolution/body.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/load.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
 #include "resolution/island.shared.glsl"
@@ -41,11 +42,10 @@ void main()
     }
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
-    uint told = k_told_words * body_above(manifold, parameters);
+    uint told = k_told_words * body_above(c, parameters);
     Manifold finished = finish_manifold(manifold, c, impulse, unpack(properties[c.body_a]).inverse_mass,
                                         unpack(properties[c.body_b]).inverse_mass,
-                                        height_of_column(told_loads[told + k_told_mass], told_loads[told + k_told_height]),
-                                        parameters);
+                                        told_loads[told + k_told_mass], told_loads[told + k_told_height], parameters);
     manifolds[c.manifold] = pack(finished);
-    if (finished.substeps != manifold.substeps) counters[k_counter_graph_due] = 1u; // of the next step
+    if (substeps_of(finished.demand) != substeps_of(manifold.demand)) counters[k_counter_graph_due] = 1u; // of the next step
 }

@@ -20,12 +20,12 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch& launch)
             points[i].normal_impulse = impulse[i];
         }
         manifold.colour = colour_of_step(state.manifold_keys[index], c.traits);
-        const uint substeps = manifold.substeps;
-        const uint* const told = &state.told_loads[k_told_words * body_above(manifold, state.parameters)];
+        const uint substeps = substeps_of(manifold.demand);
+        const uint* const told = &state.told_loads[k_told_words * body_above(c, state.parameters)];
         manifold = finish_manifold(manifold, c, impulse, state.properties[c.body_a].inverse_mass,
-                                   state.properties[c.body_b].inverse_mass,
-                                   height_of_column(told[k_told_mass], told[k_told_height]), state.parameters);
-        if (manifold.substeps != substeps) // of the next step
+                                   state.properties[c.body_b].inverse_mass, told[k_told_mass], told[k_told_height],
+                                   state.parameters);
+        if (substeps_of(manifold.demand) != substeps) // of the next step
             std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
     });
 }

@@ -46,9 +46,9 @@ namespace talus::engine {
     X(Pairs, pairs, Pair, "uu", State)                                                                                 \
     /* narrow phase */                                                                                                 \
     X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
-    X(OldManifolds, old_manifolds, Manifold, "uuuufffuffffffuu", State)                                                \
+    X(OldManifolds, old_manifolds, Manifold, "uuuufffufffffffu", State)                                                \
     X(OldManifoldPoints, old_manifold_points, ManifoldPoint, "fffffffuffff", State)                                    \
-    X(Manifolds, manifolds, Manifold, "uuuufffuffffffuu", Result)                                                      \
+    X(Manifolds, manifolds, Manifold, "uuuufffufffffffu", Result)                                                      \
     X(ManifoldPoints, manifold_points, ManifoldPoint, "fffffffuffff", Result)                                          \
     /* resolution */                                                                                                   \
     X(Islands, islands, uint, "u", Result)                                                                             \

@@ -140,7 +140,7 @@ const uint k_most_grouped = 196u; // bodies of an island that a group can solve
 const uint k_group_room = k_group_window + k_most_grouped; // bodies
 const uint k_most_single = k_island_bodies; // bodies of an island that has a group of its own
 
-// Words of a body in ToldLoads, see resolution/softness.shared.glsl.
+// Words of a body in ToldLoads, see resolution/load.shared.glsl.
 const uint k_told_mass = 0u;
 const uint k_told_height = 1u;
 const uint k_told_words = 2u;

@@ -27,6 +27,7 @@ namespace talus::engine {
 #include "broad_phase/tree.shared.glsl"
 
 #include "resolution/contact_frame.shared.glsl"
+#include "resolution/load.shared.glsl"
 #include "resolution/softness.shared.glsl"
 
 #include "narrow_phase/contact_geometry.shared.glsl"

@@ -124,8 +124,8 @@ struct Manifold {
     float tangent_impulse_2;
     float twist_impulse; // N m s, about the normal
     float weights;       // of the lighter body, that press the two together: a mean over some steps
-    uint substeps;       // that the load asks for
-    uint history;        // of its load, see resolution/softness.shared.glsl
+    float lasting_weights; // the least of them in the last seconds, roughly
+    uint demand;         // sub-steps that its load asks for, and how it came to that: see resolution/load.shared.glsl
 };
 
 // 48 bytes, four a pair.
