@@ -32,6 +32,8 @@ constexpr uint k_most_substeps_of_large = 32;
 constexpr uint k_most_manifolds_each = 64;
 // Bodies an invocation of it, where it had nothing to do of late.
 constexpr uint k_most_bodies_each = 32;
+/// Of so many groups that a GPU can run at a time, the persistent launch leaves out one for other launches.
+constexpr uint k_groups_a_spare = 64;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
@@ -346,8 +348,10 @@ StepPlan Simulation::plan_step(const Population& population) const {
     // becomes one large island, shows some steps later: then no invocation shall have too much.
     const std::uint64_t least = now.waking != Waking::None ? k_none : now.body_count / k_most_bodies_each;
     const std::uint64_t workers = std::max(2 * std::uint64_t{now.most_launched}, least);
+    // Islands that work groups solve are to run beside it, and it takes all of a multiprocessor for each of its groups.
+    const uint spare = now.has_groups() ? groups / k_groups_a_spare : 0;
     now.persistent_groups =
-        static_cast<uint>(std::min<std::uint64_t>(groups, workers / solve_persistent.items_a_group + 1));
+        static_cast<uint>(std::min<std::uint64_t>(groups - spare, workers / solve_persistent.items_a_group + 1));
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
     now.overflow = true;
     now.substep_capacity = now.most_substeps;
