@@ -128,6 +128,9 @@ void check(SavedState& state) {
         if (manifold.body_a >= manifold.body_b || manifold.body_b >= slots || manifold.point_count > 4 ||
             manifold.colour > k_no_colour || substeps_of(manifold.demand) > 1000)
             throw Error("a manifold is not one of its bodies");
+        const bool waits_too_long = idle_steps_of(manifold.demand) > k_growing + k_growing_steps;
+        if (waits_too_long || !(manifold.weights >= 0.0f) || !(manifold.lasting_weights >= 0.0f))
+            throw Error("a manifold has a load that none can have");
         point_count += manifold.point_count;
         if (!is_active(manifold)) continue;
         ++touching;

@@ -306,6 +306,19 @@ TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
     }
 }
 
+/// What prepare_contacts.comp.glsl tells the body below, by the same formulas.
+void tell_load_of(const CpuState& state, const ContactToPrepare& contact, const ContactConstraint& c,
+                  std::vector<uint>& told) {
+    const Manifold& manifold = state.manifolds[contact.manifold];
+    const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);
+    const LoadBelow load = load_below(manifold, standing, state.velocities[manifold.body_a].inverse_mass,
+                                      state.velocities[manifold.body_b].inverse_mass);
+    if (load.mass == 0) return;
+    told[k_told_words * load.body + k_told_mass] += load.mass;
+    uint& height = told[k_told_words * load.body + k_told_height];
+    height = max(height, height_of(manifold.demand));
+}
+
 /// What prepare_contacts.comp.glsl makes of a manifold, by the same formulas.
 ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contact) {
     const Manifold& manifold = state.manifolds[contact.manifold];
@@ -322,8 +335,10 @@ ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contac
     c.friction_mass = friction_masses(meeting);
     for (uint i = 0; i < manifold.point_count; ++i)
         c = add_point(c, static_cast<int>(i), points[i], meeting, respond_to_normals(meeting));
-    return lift(c, force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters),
-                state.parameters);
+    const float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
+    c.base_separation =
+        lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, state.parameters);
+    return c;
 }
 
 TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
@@ -346,7 +361,7 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
         contacts.push_back({i, i, of_hub && i % 2 == 0 ? k_first_hub_colour : i % 3, of_hub ? 0.125f : 1.0f});
     }
     std::vector<ContactConstraint> wanted;
-    std::vector<uint> wanted_loads;
+    std::vector<uint> wanted_loads(k_told_words * Items::k_bodies, 0);
     for (const LanePasses* passes : TALUS_RUNNABLE(lane_passes)) {
         SCOPED_TRACE(std::to_string(passes->lanes) + " lanes");
         std::vector<ContactConstraint> made(Items::k_count);
@@ -362,9 +377,10 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
             first += count;
         }
         if (wanted.empty()) {
-            for (const ContactToPrepare& contact : contacts)
+            for (const ContactToPrepare& contact : contacts) {
                 wanted.push_back(prepared(state, contact));
-            wanted_loads = told;
+                tell_load_of(state, contact, wanted.back(), wanted_loads);
+            }
         }
         expect_same(wanted, made, "constraint");
         EXPECT_EQ(told, wanted_loads);

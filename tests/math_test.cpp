@@ -335,6 +335,65 @@ TEST(Math, the_height_of_a_column_is_told_from_above) {
     EXPECT_EQ(height_of(make_demand(1000, 2007, 255)), 255u);
 }
 
+TEST(Math, a_storey_stands_plumb_on_a_lower_body) {
+    const Parameters p = parameters_for(Settings{});
+    const auto standing = [&](vec3 normal, vec3 centre_a, vec3 centre_b) { // from A to B
+        return find_standing(normal, centre_a, centre_b, vec3(0.0f, 0.0f, 0.0f), p);
+    };
+    const vec3 down(0.0f, -0.5f, 0.0f), up(0.0f, 0.5f, 0.0f); // the points' middle from a centre
+    EXPECT_TRUE(standing({0.0f, -1.0f, 0.0f}, down, up).is_storey);
+    EXPECT_TRUE(standing({0.0f, -1.0f, 0.0f}, down, up).b_below);
+    EXPECT_TRUE(standing({0.0f, 1.0f, 0.0f}, up, down).is_storey);
+    EXPECT_FALSE(standing({0.0f, 1.0f, 0.0f}, up, down).b_below);
+    EXPECT_TRUE(standing({0.59f, -0.81f, 0.0f}, down, up).is_storey) << "36 degrees from the plumb line";
+    EXPECT_FALSE(standing({0.62f, -0.78f, 0.0f}, down, up).is_storey) << "39 degrees";
+    EXPECT_FALSE(standing({0.0f, -1.0f, 0.0f}, up, down).is_storey) << "what is below has the higher centre";
+}
+
+TEST(Math, a_column_counts_storeys_and_without_gravity_its_load) {
+    Settings settings;
+    const Standing storey{true, true}, leaning{true, false};
+    const uint told = 20 * k_own_mass;
+    const Parameters p = parameters_for(settings);
+    EXPECT_EQ(column_height(storey, 21.0f, 1.0f, 1.0f, told, 11, p), 12u);
+    EXPECT_EQ(column_height(leaning, 21.0f, 1.0f, 1.0f, told, 11, p), 1u);
+    settings.gravity = {};
+    EXPECT_EQ(column_height(leaning, 21.0f, 1.0f, 1.0f, told, 11, parameters_for(settings)), k_unknown_height);
+}
+
+TEST(Math, fewer_substeps_are_the_next_number_in_use) {
+    const Parameters p = parameters_for(Settings{});
+    for (const auto& [substeps, fewer] : {std::pair{8u, 8u}, {12u, 8u}, {16u, 12u}, {100u, 96u}, {128u, 96u}})
+        EXPECT_EQ(fewer_substeps(substeps, p), fewer) << substeps;
+    EXPECT_EQ(fewer_substeps(5, p), 5u) << "the caller's most";
+}
+
+TEST(Math, what_lasts_of_a_load_falls_with_it_and_rises_slowly_to_three_quarters) {
+    EXPECT_EQ(next_lasting_load(1.0f, 20.0f, true), 20.0f) << "on trial";
+    EXPECT_EQ(next_lasting_load(20.0f, 5.0f, false), 5.0f);
+    EXPECT_EQ(next_lasting_load(16.0f, 20.0f, false), 16.0f) << "within the band";
+    float lasting = 0.0f;
+    for (int i = 0; i < 60 * 17; ++i)
+        lasting = next_lasting_load(lasting, 20.0f, false);
+    EXPECT_NEAR(lasting, 15.0f * (1.0f - std::exp(-1.0f)), 0.05f);
+    for (int i = 0; i < 10'000; ++i)
+        lasting = next_lasting_load(lasting, 20.0f, false);
+    EXPECT_NEAR(lasting, 15.0f, 0.01f);
+}
+
+TEST(Math, a_contact_is_lifted_by_three_quarters_of_what_it_gives_way) {
+    Settings settings;
+    const Parameters p = parameters_for(settings);
+    const float w = contact_frequency_at(8, false, p), gives_way = 500.0f / (w * w * 2.0f);
+    EXPECT_NEAR(lift_of(500.0f, 2.0f, 8, false, p), 0.75f * gives_way, 1e-8f);
+    EXPECT_NEAR(lift_of(500.0f, 2.0f, 8, true, p), 0.75f * gives_way / 4.0f, 1e-8f) << "of twice the frequency";
+    EXPECT_EQ(lift_of(1e9f, 2.0f, 8, false, p), k_most_lift);
+    EXPECT_EQ(lift_of(500.0f, 0.0f, 8, false, p), 0.0f) << "it has no points";
+    EXPECT_EQ(lift_of(NAN, 2.0f, 8, false, p), 0.0f);
+    settings.stabilisation = Stabilisation::Baumgarte;
+    EXPECT_EQ(lift_of(500.0f, 2.0f, 8, false, parameters_for(settings)), 0.0f) << "its rows are rigid";
+}
+
 /// One point, or many on a lever, that press with this force and torque limit.
 FrictionTarget friction_of(vec3 mass, float force, float torque) {
     ManifoldRows rows{};

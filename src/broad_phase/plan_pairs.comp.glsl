@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation: how many pairs there are, whether they fit, and the launches that treat them.
 // args.x: 1 where the search had launches. args.y: 1 where the constraint graph has them; otherwise it is the last step's,
-// and so are its counts.
+// and so are its counts, but for that of the contact points: see collide_pairs.
 // Reads: Counters.
 // Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the scan of the pair counts.

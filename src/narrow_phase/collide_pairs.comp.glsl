@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3). Of a pair in
 // which a body sleeps and nothing moves it is the last step's.
-// args.x: 1 where the pairs are those of the last step, one by one.
+// args.x: 1 where the pairs are those of the last step, one by one. args.y: 1 where the constraint graph is made, which counts
+// the contact points.
 // Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds,
 // OldManifoldPoints.
-// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints; Counters, where a manifold
-// has other points than in the last step, by which the constraint graph is another one.
+// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints; Counters, where two
+// bodies touch that did not in the last step, or touch no longer, by which the constraint graph is another one, and where
+// they touch at fewer or more points in a graph that lasts.
 // Needs: barriers after plan_pairs and fill_pair_table.
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
 #include "resolution/sleep.shared.glsl"
+#include "resolution/colouring.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "narrow_phase/contact_geometry.shared.glsl"
@@ -102,9 +105,14 @@ uint old_manifold_of(uint pair_index, Pair pair)
     return unpack(old_manifolds[pair_index]).point_count > 0u ? pair_index : k_none;
 }
 
-void compare_with_last(uint pair_index, uint point_count)
+void compare_with_last(uint pair_index, Manifold manifold)
 {
-    if (args.x == 1u && unpack(old_manifolds[pair_index]).point_count != point_count) counters[k_counter_graph_due] = 1u;
+    if (args.x == 0u) return;
+    Manifold old = unpack(old_manifolds[pair_index]);
+    if (is_active(old) != is_active(manifold))
+        counters[k_counter_graph_due] = 1u;
+    else if (args.y == 0u && is_active(manifold) && manifold.point_count != old.point_count)
+        atomicAdd(counters[k_counter_contact_count], manifold.point_count - old.point_count);
 }
 
 void main()
@@ -114,7 +122,7 @@ void main()
     Pair pair = pairs[pair_index];
     if (!is_near(pair)) {
         manifolds[pair_index] = pack(no_manifold(pair));
-        compare_with_last(pair_index, 0u);
+        compare_with_last(pair_index, no_manifold(pair));
         return;
     }
     uint old_index = old_manifold_of(pair_index, pair);
@@ -152,7 +160,7 @@ void main()
         impulses = vec4(0.0);
     }
     manifolds[pair_index] = pack(manifold);
-    compare_with_last(pair_index, g.count);
+    compare_with_last(pair_index, manifold);
     for (uint i = 0u; i < 4u; ++i) {
         if (i < g.count)
             manifold_points[4u * pair_index + i] = pack(make_point(g, pose_a.position, offset, i, impulses[i]));

@@ -99,13 +99,12 @@ inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint poi
     return c;
 }
 
-// After all points: see lift_of.
-inline ContactConstraint lift(ContactConstraint c, float force, Parameters p)
+// After all points, `force` being that of the load that lasts: see lift_of.
+inline vec4 lifted_separation(vec4 base_separation, vec4 normal_mass, float force, uint substeps, uint traits, Parameters p)
 {
-    float by = lift_of(force, sum4(c.normal_mass), c.substeps, is_against_static(c.traits), p);
-    precise vec4 lifted = c.base_separation - by;
-    c.base_separation = lifted;
-    return c;
+    float lift = lift_of(force, sum4(normal_mass), substeps, is_against_static(traits), p);
+    precise vec4 separation = base_separation - lift;
+    return separation;
 }
 
 // ---- from a constraint back to its manifold ----
@@ -128,20 +127,24 @@ inline uint colour_of_step(uint key, uint its_traits)
 
 // ---- the load ----
 
-// Where the normal is level either may be.
-inline bool is_b_below(ContactConstraint c, Parameters p) { return dot3(c.normal, p.gravity) > 0.0f; }
+// Which of two bodies is below, either where the normal is level, and whether it carries the other as a storey of a column.
+struct Standing {
+    bool b_below;
+    bool is_storey;
+};
 
-inline uint body_above(ContactConstraint c, Parameters p) { return is_b_below(c, p) ? c.body_a : c.body_b; }
-
-// What leans more than 37 degrees from the plumb line, or on something whose centre is higher, is no storey of a column: in a
-// heap bodies are each below the other by such contacts, and columns grew without end.
-inline bool is_storey(ContactConstraint c, Parameters p)
+// What leans more than 37 degrees from the plumb line, or on something whose centre is higher, is no storey: in a heap bodies
+// are each below the other by such contacts, and columns grew without end. The arguments are the constraint's.
+inline Standing find_standing(vec3 normal, vec3 centre_a, vec3 centre_b, vec3 gap, Parameters p)
 {
-    precise vec3 between = (c.centre_a - c.centre_b) + c.gap; // from A's centre to B's
-    float fall = dot3(c.normal, p.gravity);
+    precise vec3 between = (centre_a - centre_b) + gap; // from A's centre to B's
+    float fall = dot3(normal, p.gravity);
     precise float steepness = fall * p.inverse_weight * p.dt; // the cosine of the angle
     precise float agreement = fall * dot3(between, p.gravity);
-    return steepness * steepness >= 0.64f && agreement > 0.0f;
+    Standing standing;
+    standing.b_below = fall > 0.0f;
+    standing.is_storey = steepness * steepness >= 0.64f && agreement > 0.0f;
+    return standing;
 }
 
 // What a manifold tells the body below it, see load.shared.glsl.
@@ -150,25 +153,27 @@ struct LoadBelow {
     uint mass; // 0: it tells nothing, as to what cannot be pushed
 };
 
-inline LoadBelow load_below(ContactConstraint c, float weights, float inverse_mass_a, float inverse_mass_b, Parameters p)
+inline LoadBelow load_below(Manifold manifold, Standing standing, float inverse_mass_a, float inverse_mass_b)
 {
-    bool b_below = is_b_below(c, p);
-    float inverse_mass_below = choose(b_below, inverse_mass_b, inverse_mass_a);
-    float inverse_mass_above = choose(b_below, inverse_mass_a, inverse_mass_b);
-    uint mass = told_mass(weights, inverse_mass_below, inverse_mass_above);
+    float inverse_mass_below = choose(standing.b_below, inverse_mass_b, inverse_mass_a);
+    float inverse_mass_above = choose(standing.b_below, inverse_mass_a, inverse_mass_b);
+    uint mass = told_mass(manifold.weights, inverse_mass_below, inverse_mass_above);
     LoadBelow load;
-    load.body = choose(b_below, c.body_b, c.body_a);
-    load.mass = choose(inverse_mass_below > 0.0f && is_storey(c, p), mass, 0u);
+    load.body = choose(standing.b_below, manifold.body_b, manifold.body_a);
+    load.mass = choose(inverse_mass_below > 0.0f && standing.is_storey, mass, 0u);
     return load;
 }
 
-// What the body above has been told: see load.shared.glsl.
-inline uint column_height(ContactConstraint c, float weights, float inverse_mass_a, float inverse_mass_b, uint mass_told,
+// Of a manifold with this load. What the body above has been told: see load.shared.glsl. Without gravity nothing says what
+// stands on what, and the load alone counts.
+inline uint column_height(Standing standing, float weights, float inverse_mass_a, float inverse_mass_b, uint mass_told,
                           uint height_told, Parameters p)
 {
-    bool b_below = is_b_below(c, p);
-    uint carried = told_mass(weights, b_below ? inverse_mass_a : inverse_mass_b, b_below ? inverse_mass_b : inverse_mass_a);
-    return is_storey(c, p) ? height_of_column(mass_told, height_told, carried) : 1u;
+    if (dot3(p.gravity, p.gravity) == 0.0f) return k_unknown_height;
+    float inverse_mass_above = standing.b_below ? inverse_mass_a : inverse_mass_b;
+    float inverse_mass_below = standing.b_below ? inverse_mass_b : inverse_mass_a;
+    uint carried = told_mass(weights, inverse_mass_above, inverse_mass_below);
+    return standing.is_storey ? height_of_column(mass_told, height_told, carried) : 1u;
 }
 
 // The sub-steps that a load asks for in the next step. `height`: of the column that carries it.
@@ -207,8 +212,8 @@ inline Manifold follow_load(Manifold manifold, float weights, uint height, bool 
 }
 
 // Impulses of the whole step, and what follows from their load. What the body above has been told: see column_height.
-inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 normal_impulse, float inverse_mass_a,
-                               float inverse_mass_b, uint mass_told, uint height_told, Parameters p)
+inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing standing, vec4 normal_impulse,
+                                float inverse_mass_a, float inverse_mass_b, uint mass_told, uint height_told, Parameters p)
 {
     precise float whole = float(c.substeps);
     precise vec3 friction = c.friction_impulse * whole;
@@ -216,6 +221,6 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, vec4 nor
     manifold.tangent_impulse_2 = friction.y;
     manifold.twist_impulse = friction.z;
     float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
-    uint height = column_height(c, manifold.weights, inverse_mass_a, inverse_mass_b, mass_told, height_told, p);
+    uint height = column_height(standing, manifold.weights, inverse_mass_a, inverse_mass_b, mass_told, height_told, p);
     return follow_load(manifold, weights, height, is_against_static(c.traits), p);
 }

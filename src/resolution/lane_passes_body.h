@@ -211,7 +211,8 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
         c = choose(has_point(i), add_to_centre(c, points_at(state, points[i])), c);
     c = end_centre(c, three_of(gather(state.poses.data, body_a, 0)), three_of(gather(state.poses.data, body_b, 0)));
 
-    const LoadBelow load = load_below(c, manifold.weights, inverse_mass_a, inverse_mass_b, state.parameters);
+    const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);
+    const LoadBelow load = load_below(manifold, standing, inverse_mass_a, inverse_mass_b);
     const ULanes height = height_of(manifold.demand);
     for (std::uint32_t tells = lanes & bits_of(load.mass != 0u); tells != 0; tells &= tells - 1) {
         const int lane = __builtin_ctz(tells);
@@ -223,7 +224,9 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     const NormalResponse response = respond_to_normals(meeting);
     for (std::uint32_t i = 0; i < 4; ++i)
         c = choose(has_point(i), add_point(c, static_cast<int>(i), points_at(state, points[i]), meeting, response), c);
-    c = lift(c, force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters), state.parameters);
+    const Lanes force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
+    c.base_separation =
+        lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, state.parameters);
     put_constraints(state, places, lanes, c);
 }
 

@@ -28,13 +28,15 @@ const uint k_trial_steps = 32u;
 const uint k_halving_steps = 8u; // to half of that at a time
 
 // The numbers in use are apart by half or a third, up to the most: least, 1.5 least, 2 least, 3 least, 4 least, ...
-inline uint substep_level(uint level, uint least) {
+inline uint substep_level(uint level, uint least)
+{
     uint whole = least << (level / 2u);
     return (level & 1u) == 0u ? whole : whole + whole / 2u;
 }
 
 // The lowest number in use that is at least `number`, and no more than the most.
-inline uint substeps_for(float number, Parameters p) {
+inline uint substeps_for(float number, Parameters p)
+{
     for (uint level = 0u; level < 16u; level += 1u) {
         uint substeps = substep_level(level, p.least_substeps);
         if (substeps >= p.most_substeps) return p.most_substeps;
@@ -43,12 +45,14 @@ inline uint substeps_for(float number, Parameters p) {
     return p.most_substeps;
 }
 
-inline uint more_substeps(uint substeps, Parameters p) {
+inline uint more_substeps(uint substeps, Parameters p)
+{
     return substeps_for(float(substeps + 1u), p);
 }
 
 // The next lower number in use, or the same.
-inline uint fewer_substeps(uint substeps, Parameters p) {
+inline uint fewer_substeps(uint substeps, Parameters p)
+{
     uint fewer = min(p.least_substeps, substeps);
     for (uint level = 1u; level < 16u && substep_level(level, p.least_substeps) < substeps; level += 1u)
         fewer = substep_level(level, p.least_substeps);
@@ -56,7 +60,8 @@ inline uint fewer_substeps(uint substeps, Parameters p) {
 }
 
 // How many are enough for a load, and for the height of what carries it.
-inline float needed_substeps(float weights, uint height, bool against_static) {
+inline float needed_substeps(float weights, uint height, bool against_static)
+{
     precise float high = min(float(height), weights);
     precise float bending = high + k_end_load * (weights - high);
     precise float against_buckling = k_substeps_against_buckling * high * square_root(bending);
@@ -70,13 +75,15 @@ const float k_most_weights = 1.0e6f; // with next to no gravity they would leave
 
 // How many weights of the lighter body press a manifold together: both bodies carry that at least. `impulse` is that of
 // the whole step.
-inline float weights_on(float impulse, float inverse_mass_a, float inverse_mass_b, Parameters p) {
+inline float weights_on(float impulse, float inverse_mass_a, float inverse_mass_b, Parameters p)
+{
     precise float weights = impulse * max(inverse_mass_a, inverse_mass_b) * p.inverse_weight;
     return min(weights, k_most_weights);
 }
 
 // N that `weights` are.
-inline float force_of(float weights, float inverse_mass_a, float inverse_mass_b, Parameters p) {
+inline float force_of(float weights, float inverse_mass_a, float inverse_mass_b, Parameters p)
+{
     float inverse_mass = max(inverse_mass_a, inverse_mass_b);
     precise float force = weights * p.inv_dt * reciprocal(inverse_mass * p.inverse_weight);
     return choose(inverse_mass > 0.0f, force, 0.0f);
@@ -91,19 +98,21 @@ inline float force_of(float weights, float inverse_mass_a, float inverse_mass_b,
 const float k_newest_weight = 0.125f; // share of the newest step
 const float k_sudden_weights = 8.0f;  // for these 8 sub-steps are plenty
 
-inline float next_mean_load(float mean, float newest) {
+inline float next_mean_load(float mean, float newest)
+{
     precise float counted = min(newest, 2.0f * mean + k_sudden_weights);
     precise float next = mean + k_newest_weight * (counted - mean);
     return next;
 }
 
-// The load that lasts, for the lift. It is given up at once, and believed slowly, only where the mean has left a band
-// above it: a tall structure sways about once a second, and a lift that followed its loads with a delay drove the sway.
-// On trial it is the mean: there are most sub-steps then, and next to no lift.
+// The load that lasts, for the lift. It is given up at once, and believed slowly, only where the mean has left a band above it:
+// a tall structure sways about once a second, and a lift that followed its loads with a delay drove the sway. On trial it is the
+// mean: there are most sub-steps then, and next to no lift.
 const float k_lasting_weight = 0.0009765625f; // share of the newest mean where that is more: 17 s at 60 steps a second
 const float k_lasting_band = 0.75f;           // of the mean
 
-inline float next_lasting_load(float lasting, float mean, bool on_trial) {
+inline float next_lasting_load(float lasting, float mean, bool on_trial)
+{
     precise float least = k_lasting_band * mean;
     precise float slowly = lasting + k_lasting_weight * (least - lasting);
     return on_trial ? mean : lasting > mean ? mean : lasting < least ? slowly : lasting;
@@ -122,17 +131,19 @@ const uint k_unknown_height = 255u; // also of all that are higher
 
 const uint k_own_mass = 16u; // of what is told
 const uint k_enough_told = 3u * k_own_mass;
-const uint k_most_told = 4096u * k_own_mass; // by a contact: so a sum of 65,536 stays a number
+const uint k_most_told = 4095u * k_own_mass; // by a contact: so a sum of 65,536 stays a number
 
 // What presses on a contact, in parts of one body's mass. `weights`: of the contact, in those of the lighter of the
 // two.
-inline uint told_mass(float weights, float inverse_mass, float inverse_mass_of_other) {
+inline uint told_mass(float weights, float inverse_mass, float inverse_mass_of_other)
+{
     precise float own_masses = weights * inverse_mass * reciprocal(max(inverse_mass, inverse_mass_of_other));
     return uint(min(float(k_own_mass) * own_masses, float(k_most_told)));
 }
 
 // What the body above has been told, and what a contact below it carries, in parts of that body's mass.
-inline uint height_of_column(uint mass_told, uint height_told, uint carried) {
+inline uint height_of_column(uint mass_told, uint height_told, uint carried)
+{
     if (mass_told < k_enough_told) return 1u;
     precise float from_above = 1.25f * float(min(mass_told, k_most_told)); // what sways is no side load
     precise float share = from_above * reciprocal(max(float(carried) - float(k_own_mass), from_above));
@@ -140,18 +151,22 @@ inline uint height_of_column(uint mass_told, uint height_told, uint carried) {
     return min(uint(height + 1.5f), k_unknown_height);
 }
 
-// Manifold::demand: the sub-steps that a manifold asks for, how many steps in a row half would have done (with
+// Manifold::demand: the sub-steps that a manifold asks for, for how many steps in a row fewer would have done (with
 // k_growing and k_trial, what else it waits for), and the height of the column.
-inline uint make_demand(uint substeps, uint idle_steps, uint height) {
+inline uint make_demand(uint substeps, uint idle_steps, uint height)
+{
     return substeps | idle_steps << 12u | height << 24u;
 }
 
-inline uint substeps_of(uint demand) {
+inline uint substeps_of(uint demand)
+{
     return demand & 0xfffu;
 }
-inline uint idle_steps_of(uint demand) {
+inline uint idle_steps_of(uint demand)
+{
     return (demand >> 12u) & 0xfffu;
 }
-inline uint height_of(uint demand) {
+inline uint height_of(uint demand)
+{
     return demand >> 24u;
 }

@@ -70,7 +70,8 @@ void main()
         c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]));
     }
     c = end_centre(c, unpack(poses[manifold.body_a]).position, unpack(poses[manifold.body_b]).position);
-    tell_load(load_below(c, manifold.weights, inverse_mass_a, inverse_mass_b, parameters), height_of(manifold.demand));
+    Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
+    tell_load(load_below(manifold, standing, inverse_mass_a, inverse_mass_b), height_of(manifold.demand));
     Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     NormalResponse response = respond_to_normals(meeting);
@@ -78,6 +79,7 @@ void main()
         if (i >= manifold.point_count) continue;
         c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), meeting, response);
     }
-    c = lift(c, force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters), parameters);
+    float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
+    c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, parameters);
     pack_ContactConstraint(constraints, index, c);
 }

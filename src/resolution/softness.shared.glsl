@@ -94,17 +94,17 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
 // ---- lift ----
 
 // A soft contact gives way to its load F by F / (w^2 m), with m the sum of its points' effective masses. Most of what it would
-// give way to its mean load is taken for the distance at which the surfaces begin to push, so that under this load
+// give way to the load that lasts is taken for the distance at which the surfaces begin to push, so that under this load
 // they touch where the shapes do. What the load does within a few steps meets the same spring as before. A part is
 // left: contacts that carried a load together would pass it on to and fro if each kept its distance exactly.
 const float k_lifted_share = 0.75f; // a spring of four times the stiffness, to what lasts
 const float k_most_lift = 0.005f;   // m
 
+// Baumgarte's rows are rigid: they have no frequency, and no lift.
 inline float lift_of(float force, float effective_mass, uint substeps, bool against_static, Parameters p)
 {
     float w = contact_frequency_at(substeps, against_static, p);
     precise float stiffness = w * w * effective_mass;
     precise float lift = k_lifted_share * force * reciprocal(stiffness);
-    float most = p.baumgarte > 0.0f ? 0.0f : k_most_lift; // its rows are rigid
-    return choose(stiffness > 0.0f, min(lift, most), 0.0f);
+    return choose(stiffness > 0.0f && lift > 0.0f, min(lift, k_most_lift), 0.0f);
 }

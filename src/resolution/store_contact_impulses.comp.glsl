@@ -42,8 +42,9 @@ void main()
     }
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
-    uint told = k_told_words * body_above(c, parameters);
-    Manifold finished = finish_manifold(manifold, c, impulse, unpack(properties[c.body_a]).inverse_mass,
+    Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
+    uint told = k_told_words * (standing.b_below ? c.body_a : c.body_b); // of the body above
+    Manifold finished = finish_manifold(manifold, c, standing, impulse, unpack(properties[c.body_a]).inverse_mass,
                                         unpack(properties[c.body_b]).inverse_mass,
                                         told_loads[told + k_told_mass], told_loads[told + k_told_height], parameters);
     manifolds[c.manifold] = pack(finished);
