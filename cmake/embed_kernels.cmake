@@ -41,11 +41,12 @@ if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
         if(text MATCHES "\\)talus_glsl\"")
             message(FATAL_ERROR "${path}: holds )talus_glsl\", which ends the C++ literal that it is embedded in")
         endif()
-        string(APPEND entries "    {\"${path}\", R\"talus_glsl(${text})talus_glsl\"},\n")
+        string(APPEND entries "    {\"${path}\", R\"talus_glsl(${text})talus_glsl\"sv},\n")
     endforeach()
     file(WRITE "${output}.new"
         "// Made by cmake/embed_kernels.cmake from the shaders below ${root}.\n"
         "#include \"${header}\"\n\n"
+        "using namespace std::string_view_literals; // whose length no compiler has to count\n\n"
         "static constexpr talus::engine::ShaderFile k_files[] = {\n${entries}};\n\n"
         "std::span<const talus::engine::ShaderFile> ${function}() { return k_files; }\n")
     file(RENAME "${output}.new" "${output}")
