@@ -121,8 +121,9 @@ void main()
     if (pair_index >= counters[k_counter_pair_count]) return;
     Pair pair = pairs[pair_index];
     if (!is_near(pair)) {
-        manifolds[pair_index] = pack(no_manifold(pair));
-        compare_with_last(pair_index, no_manifold(pair));
+        Manifold none = no_manifold(pair);
+        manifolds[pair_index] = pack(none);
+        compare_with_last(pair_index, none);
         return;
     }
     uint old_index = old_manifold_of(pair_index, pair);

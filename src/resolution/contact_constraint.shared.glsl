@@ -147,6 +147,8 @@ inline Standing find_standing(vec3 normal, vec3 centre_a, vec3 centre_b, vec3 ga
     return standing;
 }
 
+inline uint body_above(Standing standing, uint body_a, uint body_b) { return standing.b_below ? body_a : body_b; }
+
 // What a manifold tells the body below it, see load.shared.glsl.
 struct LoadBelow {
     uint body;

@@ -45,10 +45,7 @@ inline uint substeps_for(float number, Parameters p)
     return p.most_substeps;
 }
 
-inline uint more_substeps(uint substeps, Parameters p)
-{
-    return substeps_for(float(substeps + 1u), p);
-}
+inline uint more_substeps(uint substeps, Parameters p) { return substeps_for(float(substeps + 1u), p); }
 
 // The next lower number in use, or the same.
 inline uint fewer_substeps(uint substeps, Parameters p)
@@ -133,8 +130,7 @@ const uint k_own_mass = 16u; // of what is told
 const uint k_enough_told = 3u * k_own_mass;
 const uint k_most_told = 4095u * k_own_mass; // by a contact: so a sum of 65,536 stays a number
 
-// What presses on a contact, in parts of one body's mass. `weights`: of the contact, in those of the lighter of the
-// two.
+// What presses on a contact, in parts of one body's mass. `weights`: of the contact, in those of its lighter body.
 inline uint told_mass(float weights, float inverse_mass, float inverse_mass_of_other)
 {
     precise float own_masses = weights * inverse_mass * reciprocal(max(inverse_mass, inverse_mass_of_other));
@@ -158,15 +154,6 @@ inline uint make_demand(uint substeps, uint idle_steps, uint height)
     return substeps | idle_steps << 12u | height << 24u;
 }
 
-inline uint substeps_of(uint demand)
-{
-    return demand & 0xfffu;
-}
-inline uint idle_steps_of(uint demand)
-{
-    return (demand >> 12u) & 0xfffu;
-}
-inline uint height_of(uint demand)
-{
-    return demand >> 24u;
-}
+inline uint substeps_of(uint demand) { return demand & 0xfffu; }
+inline uint idle_steps_of(uint demand) { return (demand >> 12u) & 0xfffu; }
+inline uint height_of(uint demand) { return demand >> 24u; }

@@ -43,7 +43,7 @@ void main()
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
     Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
-    uint told = k_told_words * (standing.b_below ? c.body_a : c.body_b); // of the body above
+    uint told = k_told_words * body_above(standing, c.body_a, c.body_b);
     Manifold finished = finish_manifold(manifold, c, standing, impulse, unpack(properties[c.body_a]).inverse_mass,
                                         unpack(properties[c.body_b]).inverse_mass,
                                         told_loads[told + k_told_mass], told_loads[told + k_told_height], parameters);

@@ -124,7 +124,7 @@ struct Manifold {
     float tangent_impulse_2;
     float twist_impulse; // N m s, about the normal
     float weights;       // of the lighter body, that press the two together: a mean over some steps
-    float lasting_weights; // the least of them in the last seconds, roughly
+    float lasting_weights; // those that last, see next_lasting_load
     uint demand;         // sub-steps that its load asks for, and how it came to that: see resolution/load.shared.glsl
 };
 
