@@ -115,7 +115,7 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     StepPlan plan = simulation.plan_step(population);
     if (!plan.small) plan.colouring_groups = std::max(gpu->resident_groups(assign_colours), 1u);
     plan.in_groups = plan.in_groups && gpu->loops_freely();
-    plan.persistent_groups = plan.may_be_persistent() ? gpu->resident_groups(solve_persistent) : 0;
+    plan.persistent_groups = plan.may_be_persistent() ? gpu->resident_groups(persistent_solver(plan)) : 0;
     plan.colour_capacity = k_first_hub_colour;
     plan.overflow = true;
     plan.substep_capacity = plan.most_substeps;

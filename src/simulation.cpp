@@ -154,6 +154,7 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::TreeGrids, 1);
     grow_everywhere(BufferId::HubChanges, 1);
     grow_everywhere(BufferId::Arrivals, k_arrival_words);
+    grow_everywhere(BufferId::ColourTicks, k_max_colours + 1);
     grow_everywhere(BufferId::Rests, 1);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
@@ -340,9 +341,10 @@ StepPlan Simulation::plan_step(const Population& population) const {
     if (now.hub_capacity > 0) now.weighing_groups = std::max(placement.resolution->resident_groups(weigh_hubs), 1u);
     if (!now.small) now.colouring_groups = std::max(placement.resolution->resident_groups(assign_colours), 1u);
     if (!now.may_be_persistent()) return now;
-    const uint groups = placement.resolution->resident_groups(solve_persistent);
+    const Kernel& solver = persistent_solver(now);
+    const uint groups = placement.resolution->resident_groups(solver);
     const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
-    const std::uint64_t most = std::uint64_t{k_most_manifolds_each} * groups * solve_persistent.items_a_group;
+    const std::uint64_t most = std::uint64_t{k_most_manifolds_each} * groups * solver.items_a_group;
     if (groups == 0 || passes > most) return now;
     // Those that have nothing to do only make the wait longer, and take the room of launches beside it. What wakes, or
     // becomes one large island, shows some steps later: then no invocation shall have too much.
@@ -351,7 +353,7 @@ StepPlan Simulation::plan_step(const Population& population) const {
     // Islands that work groups solve are to run beside it, and it takes all of a multiprocessor for each of its groups.
     const uint spare = now.has_groups() ? groups / k_groups_a_spare : 0;
     now.persistent_groups =
-        static_cast<uint>(std::min<std::uint64_t>(groups - spare, workers / solve_persistent.items_a_group + 1));
+        static_cast<uint>(std::min<std::uint64_t>(groups - spare, workers / solver.items_a_group + 1));
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
     now.overflow = true;
     now.substep_capacity = now.most_substeps;

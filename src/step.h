@@ -37,9 +37,10 @@ struct StepPlan {
     bool one_island = false;     ///< islands are not told apart: a kinematic body may be part of several
     bool in_groups = false;      ///< work groups solve islands: each of a small world, the little ones of a large world
     bool singles = false;        ///< in a large world a work group may solve a single island, too large to share one
-    uint colouring_groups = 1;   ///< that colour new contacts, waiting for each other
-    uint weighing_groups = 1;    ///< that find the loads on hubs where no graph is made, in the same way
-    uint persistent_groups = 0;  ///< that solve all else in one launch; 0: a launch for each colour and pass
+    uint least_multirate = k_least_multirate; ///< bodies, where islands may be multirate
+    uint colouring_groups = 1;                ///< that colour new contacts, waiting for each other
+    uint weighing_groups = 1;                 ///< that find the loads on hubs where no graph is made, in the same way
+    uint persistent_groups = 0; ///< that solve all else in one launch; 0: a launch for each colour and pass
     uint least_substeps = 0;
     uint most_substeps = 0;
     uint substep_capacity = 1; ///< sub-steps that get launches: some, until it is known that none are needed
@@ -55,6 +56,10 @@ struct StepPlan {
     bool has_islands() const { return small || !one_island; }
     /// In a large world; also where no more is wanted of them than whether they sleep.
     bool measures_islands() const { return !small && (!one_island || sleeping); }
+    /// Bodies from which on an island is multirate; k_none: none is. A kinematic body may touch several islands, and
+    /// moves in one number of sub-steps; what bounces has hits, which are solved at once.
+    uint multirate_from() const { return small || one_island || bounces ? k_none : least_multirate; }
+    bool may_be_multirate() const { return body_count >= multirate_from(); }
     bool has_groups() const { return in_groups && !small; }
     bool needs_launches() const { return !(in_groups && small); }
     /// One persistent launch may make all passes, if the device has groups for it. All others wait there for the one

@@ -49,8 +49,8 @@ public:
     void step_persistently(bool in_groups, engine::uint least_groups = 1) {
         engine::StepPlan plan = plan_for_any_demand();
         plan.in_groups = in_groups;
-        plan.persistent_groups =
-            std::max(simulation.state_device().resident_groups(engine::solve_persistent), least_groups);
+        const engine::uint groups = simulation.state_device().resident_groups(engine::persistent_solver(plan));
+        plan.persistent_groups = std::max(groups, least_groups);
         step_as(plan);
     }
 
@@ -103,6 +103,8 @@ public:
     }
 
     Settings settings;
+    engine::uint least_multirate =
+        engine::k_least_multirate; ///< as StepPlan has it, in steps that say how they are made
     engine::BodyTable table;
     engine::Simulation simulation;
 
@@ -112,6 +114,7 @@ private:
         plan.substep_capacity = plan.most_substeps;
         plan.colour_capacity = engine::k_first_hub_colour;
         plan.overflow = true;
+        plan.least_multirate = least_multirate;
         return plan;
     }
 

@@ -326,7 +326,7 @@ ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contac
     const float inverse_mass_a = state.velocities[manifold.body_a].inverse_mass;
     const float inverse_mass_b = state.velocities[manifold.body_b].inverse_mass;
     ContactConstraint c = begin_constraint(manifold, contact.manifold, contact.colour, contact.hub_share,
-                                           inverse_mass_a, inverse_mass_b, inertia_a, inertia_b);
+                                           inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, state.parameters);
     const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * contact.manifold];
     for (uint i = 0; i < manifold.point_count; ++i)
         c = add_to_centre(c, points[i]);

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Snapshots: stepping forward again gives the same bits, on each device and from one to another, whatever was done to
 // the world in between; files that say what is wrong with them.
+#include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include "devices.h"
 #include "scenes/scene.h"
+#include "state/formulas.h"
 
 namespace talus::tests {
 namespace {
@@ -281,8 +286,8 @@ TEST_F(SnapshotFile, says_what_is_wrong) {
     EXPECT_TRUE(has(error_of_content("hello"), "is not a Talus snapshot"));
     EXPECT_TRUE(has(error_of_content(good.substr(0, 10)), "ends early"));
     std::string other_version = good;
-    other_version[8] = 9;
-    EXPECT_TRUE(has(error_of_content(other_version), "version 9"));
+    other_version[8] = 10;
+    EXPECT_TRUE(has(error_of_content(other_version), "version 10"));
     // Cut anywhere, or one bit turned anywhere: never taken for another snapshot. (A few bits of Zstandard's frame mean
     // nothing.)
     for (std::size_t i = 12; i < good.size(); i += 7) {
@@ -301,6 +306,46 @@ TEST_F(SnapshotFile, says_what_is_wrong) {
 
     EXPECT_TRUE(has(error_of([&] { world.snapshot().save(folder / "no folder" / "a"); }), "cannot be written"));
     EXPECT_TRUE(has(error_of([&] { world.snapshot().save(folder); }), "is not a file"));
+}
+
+// What a file says of a load is what steps reckon with: one that none can have is told apart from a file that is whole.
+TEST_F(SnapshotFile, refuses_loads_that_none_can_have) {
+    World world({}, options_on(DeviceKind::Cpu));
+    fill(world, "stack:height=4");
+    world.step(30);
+    world.snapshot().save(file);
+    const std::string good = content_of(file);
+    constexpr std::size_t k_head = 12;
+    std::string state(ZSTD_getFrameContentSize(good.data() + k_head, good.size() - k_head), '\0');
+    ASSERT_EQ(ZSTD_decompress(state.data(), state.size(), good.data() + k_head, good.size() - k_head), state.size());
+    // The list of manifolds: the size of a record, and how many there are.
+    std::string list_head(12, '\0');
+    const std::uint32_t stride = sizeof(engine::Manifold);
+    const std::uint64_t count = world.report().pairs;
+    std::memcpy(list_head.data(), &stride, sizeof stride);
+    std::memcpy(list_head.data() + sizeof stride, &count, sizeof count);
+    const std::size_t manifolds = state.find(list_head) + list_head.size();
+    ASSERT_EQ(state.find(list_head, manifolds), std::string::npos) << "it is that list";
+
+    const auto error_with = [&](std::size_t member, auto value) {
+        std::string changed = state;
+        std::memcpy(changed.data() + manifolds + member, &value, sizeof value);
+        std::string packed(ZSTD_compressBound(changed.size()), '\0');
+        packed.resize(ZSTD_compress(packed.data(), packed.size(), changed.data(), changed.size(), 1));
+        return error_of_content(good.substr(0, k_head) + packed);
+    };
+    const std::size_t weights = offsetof(engine::Manifold, weights),
+                      lasting = offsetof(engine::Manifold, lasting_weights);
+    const std::size_t demand = offsetof(engine::Manifold, demand);
+    EXPECT_EQ(error_with(weights, 3.0f), "no error");
+    const std::string wrong_load = "a manifold has a load that none can have";
+    for (const float load : {-1.0f, std::nanf("")}) {
+        EXPECT_NE(error_with(weights, load).find(wrong_load), std::string::npos) << load;
+        EXPECT_NE(error_with(lasting, load).find(wrong_load), std::string::npos) << load;
+    }
+    EXPECT_EQ(error_with(demand, engine::make_demand(8, engine::k_growing + 7, 1)), "no error");
+    EXPECT_NE(error_with(demand, engine::make_demand(8, engine::k_growing + 9, 1)).find(wrong_load), std::string::npos);
+    EXPECT_NE(error_with(demand, engine::make_demand(1001, 0, 1)).find("not one of its bodies"), std::string::npos);
 }
 
 } // namespace talus::tests

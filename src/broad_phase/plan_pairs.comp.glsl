@@ -49,6 +49,7 @@ void begin_graph()
     counters[k_counter_launched_colours] = 0u;
     counters[k_counter_launched_substeps] = 0u;
     counters[k_counter_launched_overflow] = 0u;
+    counters[k_counter_multirate_islands] = 0u;
     counters[k_counter_sleeping_manifolds] = 0u;
     counters[k_counter_singles] = 0u;
     counters[k_counter_substep_demand] = parameters.least_substeps;

@@ -32,7 +32,8 @@ static void begin_graph(CpuState& state) {
     for (const uint counter :
          {k_counter_manifold_count, k_counter_contact_count, k_counter_colour_demand, k_counter_overflow_count,
           k_counter_uncoloured, k_counter_hub_count, k_counter_hub_manifolds, k_counter_launched_colours,
-          k_counter_launched_substeps, k_counter_launched_overflow, k_counter_sleeping_manifolds, k_counter_singles})
+          k_counter_launched_substeps, k_counter_launched_overflow, k_counter_sleeping_manifolds, k_counter_singles,
+          k_counter_multirate_islands})
         state.counters[counter] = 0;
     state.counters[k_counter_substep_demand] = state.parameters.least_substeps;
 }

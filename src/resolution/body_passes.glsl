@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What a sub-step does to one body. Before this file the kernel defines slot_of, load_velocity, store_velocity and
-// load_delta, as for contact_passes.glsl, and void store_delta(uint body, BodyDelta delta); and it declares Properties,
+// load_delta and k_multirate_islands, as for contact_passes.glsl, and void store_delta(uint body, BodyDelta delta); and it declares Properties,
 // Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 
-// Ends the sub-step before `substep` with its movement, and begins `substep` with its forces: between the two nothing
-// happens. A body whose sub-steps are all done is left alone.
-void integrate_body(uint body, uint substep)
+// Where the tick begins a sub-step of the body, ends the one before with its movement, and begins the new one with its
+// forces: between the two nothing happens. A body whose sub-steps are all done is left alone.
+void integrate_body(uint body, uint tick)
 {
     BodyInertia inertia = unpack(inertias[body]);
+    uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
     if (substep > inertia.substeps || !is_mover(unpack(shapes[body]))) return;
     BodyPose pose = unpack(poses[body]);
     if ((pose.flags & k_body_frozen) != 0u) return;

@@ -9,10 +9,12 @@
 
 namespace talus::engine {
 
-/// Ends the sub-step before `substep` with its movement, and begins `substep` with its forces: between the two nothing
-/// happens. A body whose sub-steps are all done is left alone, and one that sleeps, as it has none.
-inline void integrate_body(CpuState& state, uint body, uint substep) {
+/// Where the tick begins a sub-step of the body, ends the one before with its movement, and begins the new one with its
+/// forces: between the two nothing happens. A body whose sub-steps are all done is left alone, and one that sleeps, as
+/// it has none.
+inline void integrate_body(CpuState& state, uint body, uint tick) {
     const BodyInertia& inertia = state.inertias[body];
+    const uint substep = substep_at(tick, inertia.traits);
     BodyPose& pose = state.poses[body];
     if (substep > inertia.substeps || inertia.substeps == 0 || !is_mover(state.shapes[body])) return;
     if ((pose.flags & k_body_frozen) != 0) return;

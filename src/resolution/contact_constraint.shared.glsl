@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From a manifold to the solver's record of it, and back.
-// Needs resolution/manifold_rows.shared.glsl, hub.shared.glsl, softness.shared.glsl, load.shared.glsl and island.shared.glsl.
+// Needs resolution/manifold_rows.shared.glsl, hub.shared.glsl, softness.shared.glsl, load.shared.glsl, multirate.shared.glsl and
+// island.shared.glsl.
 
 // Whether a pair is one of those that a launch is for.
 inline bool is_among(uint pair, uint first, uint count) { return pair >= first && pair - first < count; }
@@ -16,19 +17,41 @@ inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
     return (a.traits & mask) | ((b.traits & mask) << k_traits_of_b) | whole_hub;
 }
 
-// Impulses are kept for a whole step, and accumulated in a sub-step. Of bodies in different numbers of sub-steps, one
-// cannot be pushed: the other's number holds.
+// The sub-steps of a contact between two bodies, and its rate. Of one that cannot be pushed the number does not count; where
+// both can, it is the same but in a multirate island.
+struct ContactRate {
+    uint substeps;
+    uint trait;
+};
+
+inline ContactRate find_rate(uint demand, BodyInertia a, BodyInertia b, Parameters p)
+{
+    bool pushes_a = (a.traits & k_trait_movable) != 0u;
+    bool pushes_b = (b.traits & k_trait_movable) != 0u;
+    ContactRate rate;
+    rate.substeps = max(max(choose(pushes_a, a.substeps, 1u), choose(pushes_b, b.substeps, 1u)), 1u);
+    rate.trait = 0u;
+    bool multirate = is_multirate(choose(pushes_a, a.traits, b.traits));
+    if (!any_lane(multirate)) return rate;
+    uint ticks = choose(pushes_a, ticks_of(a.substeps, a.traits), ticks_of(b.substeps, b.traits));
+    uint slower = min(choose(pushes_a, a.substeps, ticks), choose(pushes_b, b.substeps, ticks));
+    uint own = min(doubled_substeps(demand, p), slower);
+    rate.substeps = choose_active(multirate, own, rate.substeps);
+    rate.trait = choose_active(multirate, rate_trait(ticks, own), 0u);
+    return rate;
+}
+
+// Impulses are kept for a whole step, and accumulated in a sub-step.
 inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, float hub_share,
                                           float inverse_mass_a, float inverse_mass_b, BodyInertia inertia_a,
-                                          BodyInertia inertia_b)
+                                          BodyInertia inertia_b, Parameters p)
 {
-    bool pushes_a = (inertia_a.traits & k_trait_movable) != 0u;
-    bool pushes_b = (inertia_b.traits & k_trait_movable) != 0u;
     vec3 none = vec3(0.0f, 0.0f, 0.0f);
     vec4 no_points = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     uint traits = traits_of_constraint(inertia_a, inertia_b, colour);
     precise float inverse_masses = share_inverse_mass(inverse_mass_a, hub_share, traits) +
                                    share_inverse_mass(inverse_mass_b, hub_share, traits >> k_traits_of_b);
+    ContactRate rate = find_rate(substeps_of(manifold.demand), inertia_a, inertia_b, p);
     ContactConstraint c;
     c.body_a = manifold.body_a;
     c.body_b = manifold.body_b;
@@ -41,10 +64,9 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.centre_b = none;
     c.inverse_masses = inverse_masses;
     c.gap = none;
-    c.traits = traits;
+    c.traits = traits | rate.trait;
     c.friction_mass = none;
-    c.substeps =
-        max(max(choose(pushes_a, inertia_a.substeps, 1u), choose(pushes_b, inertia_b.substeps, 1u)), 1u);
+    c.substeps = rate.substeps;
     c.x = no_points;
     c.y = no_points;
     c.lever = no_points;
@@ -179,7 +201,7 @@ inline uint column_height(Standing standing, float weights, float inverse_mass_a
 }
 
 // The sub-steps that a load asks for in the next step. `height`: of the column that carries it.
-inline Manifold follow_load(Manifold manifold, float weights, uint height, bool against_static, Parameters p)
+inline Manifold follow_load(Manifold manifold, float weights, float yielding, uint height, bool against_static, Parameters p)
 {
     float mean = next_mean_load(manifold.weights, weights);
     uint substeps = substeps_of(manifold.demand);
@@ -187,7 +209,7 @@ inline Manifold follow_load(Manifold manifold, float weights, uint height, bool 
     bool grows = idle_steps >= k_growing;
     bool on_trial = idle_steps >= k_trial && !grows;
     if (on_trial) height = k_unknown_height;
-    float needed = needed_substeps(mean, height, against_static);
+    float needed = needed_substeps(mean, yielding, height, against_static);
     uint wanted = substeps_for(needed, p);
     bool half_would_do = on_trial || 2u * wanted <= substeps;
     uint fewer = half_would_do ? max(wanted, substeps / 2u) : fewer_substeps(substeps, p);
@@ -213,6 +235,20 @@ inline Manifold follow_load(Manifold manifold, float weights, uint height, bool 
     return manifold;
 }
 
+// See needed_substeps. Of the point that gives way most, which is all that counts where a contact has sub-steps of its own: on
+// a corner the effective mass is a quarter of a face's. A whole island would have many for few such contacts.
+inline float yielding_of(vec4 normal_impulse, vec4 normal_mass, float inverse_mass_of_lighter)
+{
+    float most = 0.0f;
+    for (int i = 0; i < 4; ++i) {
+        precise float way = normal_impulse[i] * reciprocal(normal_mass[i]);
+        if (normal_mass[i] > 0.0f) most = max(most, way);
+    }
+    precise float on_a_face = 2.0f * inverse_mass_of_lighter * sum4(normal_impulse);
+    precise float yielding = most * reciprocal(on_a_face);
+    return on_a_face > 0.0f ? max(yielding, 1.0f) : 1.0f;
+}
+
 // Impulses of the whole step, and what follows from their load. What the body above has been told: see column_height.
 inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing standing, vec4 normal_impulse,
                                 float inverse_mass_a, float inverse_mass_b, uint mass_told, uint height_told, Parameters p)
@@ -224,5 +260,8 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing
     manifold.twist_impulse = friction.z;
     float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
     uint height = column_height(standing, manifold.weights, inverse_mass_a, inverse_mass_b, mass_told, height_told, p);
-    return follow_load(manifold, weights, height, is_against_static(c.traits), p);
+    float yielding = is_multirate(c.traits)
+                         ? yielding_of(normal_impulse, c.normal_mass, max(inverse_mass_a, inverse_mass_b))
+                         : 1.0f;
+    return follow_load(manifold, weights, yielding, height, is_against_static(c.traits), p);
 }

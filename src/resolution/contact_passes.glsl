@@ -6,6 +6,7 @@
 //   BodyDelta load_delta(uint body)
 //   const bool k_bounces, whether there may be a restitution above 0
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
+//   const bool k_multirate_islands, whether a body may have more sub-steps than a contact of it
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
 // Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts.
@@ -36,6 +37,8 @@ uint slot_b;
 uint traits;
 uint substeps;
 float hub_share;
+float part_a; // see change_in_part
+float part_b;
 float load_speed;
 vec3 gap_at_start;
 vec4 base_separation;
@@ -54,6 +57,8 @@ void take_constraint(uint index)
     traits = c.traits;
     substeps = c.substeps;
     hub_share = c.hub_share;
+    part_a = part_of_change(traits, inertia_a.traits);
+    part_b = part_of_change(traits, inertia_b.traits);
     load_speed = c.load_speed;
     gap_at_start = c.gap;
     base_separation = c.base_separation;
@@ -142,23 +147,26 @@ ManifoldState pass_over_hit(uint index, float old_share)
 }
 
 // A body that contacts cannot push may be in many constraints of one colour: nobody writes it. Nor a hub.
-void put_velocity(uint index, uint body, uint slot, uint its_traits, BodyVelocity before, BodyVelocity after)
+void put_velocity(uint index, uint tick, uint body, uint slot, uint its_traits, float part, BodyVelocity before,
+                  BodyVelocity after)
 {
     if (after.inverse_mass == 0.0) return;
+    if (k_multirate_islands) after = change_in_part(before, after, part);
     if (k_hubs && (its_traits & k_trait_hub) != 0u)
-        put_change(index, change_of_hub(body, before, after, hub_share));
+        put_change(index, change_of_hub(body, before, after, hub_share, tick));
     else
         store_velocity(slot, after);
 }
 
-void put_velocities(uint index, VelocityPair before, VelocityPair after)
+// After the relax pass no sub-step follows that could have a part.
+void put_velocities(uint index, uint pass, uint tick, VelocityPair before, VelocityPair after)
 {
-    put_velocity(index, body_a, slot_a, traits, before.a, after.a);
-    put_velocity(index, body_b, slot_b, traits >> k_traits_of_b, before.b, after.b);
+    put_velocity(index, tick, body_a, slot_a, traits, pass == k_relax ? 1.0 : part_a, before.a, after.a);
+    put_velocity(index, tick, body_b, slot_b, traits >> k_traits_of_b, pass == k_relax ? 1.0 : part_b, before.b, after.b);
 }
 
 // One pass over the constraint in hand, whose index it is.
-void pass_over_constraint(uint pass, uint index, PassTarget target)
+void pass_over_constraint(uint pass, uint tick, uint index, PassTarget target)
 {
     ManifoldState before = begin_pass();
     ManifoldState solved = before;
@@ -173,5 +181,5 @@ void pass_over_constraint(uint pass, uint index, PassTarget target)
         if (!is_finite_pair(solved.velocities)) solved = before; // what has gone wrong here is kept from the bodies
         impulses = solved.impulses;
     }
-    put_velocities(index, before.velocities, solved.velocities);
+    put_velocities(index, pass, tick, before.velocities, solved.velocities);
 }

@@ -14,16 +14,16 @@ enum class ContactPass : uint {
     Relax,      ///< without bias
 };
 
-/// The sub-steps of a step and their passes, in order: calls integrate(substep) and over_contacts(pass, substep).
-/// `last`: the number of sub-steps. The kernels' counterpart is solve_substeps.glsl.
+/// The ticks of a step and their passes, in order: calls integrate(tick) and over_contacts(pass, tick). `last`: how
+/// many ticks there are. The kernels' counterpart is solve_substeps.glsl.
 template <typename Integrate, typename OverContacts> void
 for_each_pass(uint last, uint iterations, bool relax, const Integrate& integrate, const OverContacts& over_contacts) {
-    for (uint substep = 0; substep < last; ++substep) {
-        integrate(substep);
+    for (uint tick = 0; tick < last; ++tick) {
+        integrate(tick);
         // Later sub-steps find their warm start body by body (body.shared.glsl).
-        if (substep == 0) over_contacts(ContactPass::WarmStart, 0);
+        if (tick == 0) over_contacts(ContactPass::WarmStart, 0);
         for (uint i = 0; i < iterations; ++i)
-            over_contacts(i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, substep);
+            over_contacts(i == 0 ? ContactPass::Solve : ContactPass::SolveAgain, tick);
     }
     integrate(last); // the movement of the last one
     if (relax) over_contacts(ContactPass::Relax, 0);
@@ -75,19 +75,23 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
 }
 
 /// A body that contacts cannot push may be in many constraints of one colour: nobody writes it. Nor a hub.
-inline void put_velocity(CpuState& state, uint index, uint body, uint its_traits, const BodyVelocity& before,
-                         const BodyVelocity& after) {
+inline void put_velocity(CpuState& state, uint index, ContactPass pass, uint tick, uint body, uint its_traits,
+                         const BodyVelocity& before, BodyVelocity after) {
     if (after.inverse_mass == 0.0f) return;
+    const ContactConstraint& c = state.constraints[index];
+    // After the relax pass no sub-step follows that could have a part.
+    if (pass != ContactPass::Relax)
+        after = change_in_part(before, after, part_of_change(c.traits, state.inertias[body].traits));
     if ((its_traits & k_trait_hub) == 0)
         state.velocities[body] = after;
     else
         state.hub_changes[index - state.colour_offsets[k_first_hub_colour]] =
-            change_of_hub(body, before, after, state.constraints[index].hub_share);
+            change_of_hub(body, before, after, c.hub_share, tick);
 }
 
-inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep, uint index) {
+inline void pass_over_constraint(CpuState& state, ContactPass pass, uint tick, uint index) {
     ContactConstraint& c = state.constraints[index];
-    if (substep >= c.substeps) return;
+    if (substep_at(tick, c.traits) >= c.substeps) return;
     const ManifoldRows rows = make_rows(c, state.inertias[c.body_a], state.inertias[c.body_b]);
     const ManifoldState before{{state.velocities[c.body_a], state.velocities[c.body_b]}, make_impulses(c), false};
     ManifoldState s = before;
@@ -107,8 +111,8 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint substep
         c.normal_impulse = s.impulses.normal;
         c.total_impulse = s.impulses.total;
     }
-    put_velocity(state, index, c.body_a, c.traits, before.velocities.a, s.velocities.a);
-    put_velocity(state, index, c.body_b, c.traits >> k_traits_of_b, before.velocities.b, s.velocities.b);
+    put_velocity(state, index, pass, tick, c.body_a, c.traits, before.velocities.a, s.velocities.a);
+    put_velocity(state, index, pass, tick, c.body_b, c.traits >> k_traits_of_b, before.velocities.b, s.velocities.b);
 }
 
 } // namespace talus::engine

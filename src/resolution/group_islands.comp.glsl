@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its island's sub-steps and group, and its place among the bodies in the order of islands.
 // An island that sleeps has neither, and no sub-steps.
-// args.x: 1 where work groups solve islands. args.y: 1 where also those do that solve a single one.
+// args.x: 1 where work groups solve islands. args.y: 1 where also those do that solve a single one. args.z: the
+// bodies from which on an island is multirate; k_none: none is.
 // Reads: Islands, IslandSizes, IslandStarts (scanned).
 // Writes: Substeps, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
 // first; nothing that is made from it does.
 // Needs: a barrier after the scan of IslandStarts.
 // Overflow: none.
+#include "state/math.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -33,14 +36,22 @@ void main()
         substeps[body] = 0u;
         return;
     }
-    uint size = island_sizes[island];
+    uint size = island_size(island_sizes[island]);
     uint group = args.x == 1u ? island_group(size, island_starts[island], args.y == 1u) : k_launched;
     uint place = island_starts[island] + (atomicAdd(island_fill[island], 1u) & ~k_awake);
     island_groups[body] = group;
     island_places[body] = place;
     island_bodies[place] = body;
-    uint of_island = substeps[island];
-    if (body != island) substeps[body] = of_island;
+    uint of_island = number_of_substeps(substeps[island]);
+    if (is_multirate_island(island_sizes[island], args.z)) {
+        if (body == island) atomicAdd(counters[k_counter_multirate_islands], 1u);
+        of_island = doubled_substeps(of_island, parameters);
+        // The island's own body has the most: others read it.
+        substeps[body] = k_multirate | (body == island ? of_island : doubled_substeps(substeps[body], parameters));
+    } else if (body != island) {
+        substeps[body] = of_island;
+    }
     if (body == island && is_single(size)) atomicAdd(counters[k_counter_singles], 1u);
-    if (group == k_launched && body == island) atomicMax(counters[k_counter_launched_substeps], of_island);
+    if (group == k_launched && body == island)
+        atomicMax(counters[k_counter_launched_substeps], args.z != k_none ? doubled_substeps(of_island, parameters) : of_island);
 }

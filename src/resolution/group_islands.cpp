@@ -7,6 +7,8 @@
 namespace talus::engine {
 
 static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
+    const Parameters& p = state.parameters;
+    const bool may_be_multirate = launch.args[2] != k_none;
     uint& launched_substeps = state.counters[k_counter_launched_substeps];
     for (uint body = 0; body < state.parameters.body_count; ++body) {
         const uint island = state.islands[body];
@@ -18,14 +20,22 @@ static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
             continue;
         }
         const uint place = state.island_starts[island] + (state.island_fill[island]++ & ~k_awake);
+        const uint size = island_size(state.island_sizes[island]);
         if (launch.args[0] == 1)
-            state.island_groups[body] =
-                island_group(state.island_sizes[island], state.island_starts[island], launch.args[1] == 1);
-        if (body == island && is_single(state.island_sizes[island])) ++state.counters[k_counter_singles];
+            state.island_groups[body] = island_group(size, state.island_starts[island], launch.args[1] == 1);
+        if (body == island && is_single(size)) ++state.counters[k_counter_singles];
         state.island_places[body] = place;
         state.island_bodies[place] = body;
-        state.substeps[body] = state.substeps[island];
-        if (state.island_groups[body] == k_launched) launched_substeps = max(launched_substeps, state.substeps[island]);
+        uint of_island = number_of_substeps(state.substeps[island]);
+        uint of_body = of_island;
+        if (is_multirate_island(state.island_sizes[island], launch.args[2])) {
+            if (body == island) ++state.counters[k_counter_multirate_islands];
+            of_island = doubled_substeps(of_island, p);
+            of_body = k_multirate | (body == island ? of_island : doubled_substeps(state.substeps[body], p));
+        }
+        state.substeps[body] = of_body;
+        if (state.island_groups[body] == k_launched)
+            launched_substeps = max(launched_substeps, may_be_multirate ? doubled_substeps(of_island, p) : of_island);
     }
 }
 

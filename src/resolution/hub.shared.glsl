@@ -15,7 +15,7 @@ inline float share_inverse_mass(float inverse_mass, float share, uint its_traits
 
 // What a constraint does to the hub itself, of the velocities that its share had before and has after a pass. The linear
 // part is the hub's already, as BodyVelocity::inverse_mass is.
-inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity after, float share)
+inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity after, float share, uint tick)
 {
     precise vec3 linear = after.linear - before.linear;
     precise vec3 angular = (after.angular - before.angular) * share;
@@ -23,7 +23,7 @@ inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity afte
     change.linear = linear;
     change.body = body;
     change.angular = angular;
-    change.reserved = 0.0f;
+    change.tick = tick;
     return change;
 }
 
@@ -33,7 +33,7 @@ inline HubChange no_change(uint body)
     none.linear = vec3(0.0f, 0.0f, 0.0f);
     none.body = body;
     none.angular = vec3(0.0f, 0.0f, 0.0f);
-    none.reserved = 0.0f;
+    none.tick = 0u;
     return none;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: the movement that ends a sub-step, and the forces that begin the next one.
-// args.x: the sub-step that begins.
+// args.x: the tick.
 // Reads: Shapes, Properties, Loads, Inertias.
 // Writes: Velocities, Deltas, WarmStarts; Poses (flags) and Counters where a body is frozen.
 // Needs: a barrier after prepare_bodies, and after the pass before.
@@ -9,6 +9,7 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -27,6 +28,7 @@ void store_delta(uint body, BodyDelta delta) { deltas[body] = pack(delta); }
 BodyWarmStart load_warm_start(uint body) { return unpack(warm_starts[body]); }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 
+const bool k_multirate_islands = true;
 #include "resolution/body_passes.glsl"
 
 void main()

@@ -16,15 +16,15 @@ static std::vector<uint> bodies_to_integrate(const CpuState& state) {
 }
 
 static void integrate_bodies_on_cpu(CpuState& state, const Launch& launch) {
-    const uint substep = launch.args[0], grain = k_parallel_grain / 4 / lane_passes().lanes;
+    const uint tick = launch.args[0], grain = k_parallel_grain / 4 / lane_passes().lanes;
     BodyBatches& bodies = solver_batches(state).bodies;
-    if (substep == 0) {
+    if (tick == 0) {
         bodies.assign(bodies_to_integrate(state));
         state.parallel(
             bodies.count(), [&](uint batch) { bodies.take(state, batch); }, grain);
     }
     state.parallel(
-        bodies.count(), [&](uint batch) { bodies.integrate(state, substep, batch); }, grain);
+        bodies.count(), [&](uint batch) { bodies.integrate(state, tick, batch); }, grain);
 }
 
 const Kernel integrate_bodies{"resolution/integrate_bodies", integrate_bodies_on_cpu};

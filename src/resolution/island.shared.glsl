@@ -11,6 +11,13 @@ inline uint island_of_key(uint key) { return key >> k_colour_bits; }
 
 // ---- large worlds ----
 
+const uint k_tall = 0x40000000u; // in IslandSizes, beside a count of bodies: the island has a tall column
+
+inline uint island_size(uint word) { return word & (k_tall - 1u); }
+
+// Whether each contact has sub-steps of its own. A tall column has to be as stiff above as it is at its foot.
+inline bool is_multirate_island(uint word, uint least_size) { return island_size(word) >= least_size && (word & k_tall) == 0u; }
+
 const uint k_awake = 0x80000000u; // in IslandFill, beside a count of bodies
 
 const uint k_launched = 0u; // in place of a group: the island has too many bodies for one

@@ -3,7 +3,7 @@
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
 // sub-steps of the manifold that asks for most. What contacts cannot push, but is restless, keeps awake what it touches.
 // Reads: Counters, Manifolds.
-// Writes: Islands, Substeps, IslandFill. Which body hangs below which depends on who comes first; the roots do not.
+// Writes: Islands, Substeps, IslandFill; IslandSizes, that a column is tall. Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_islands.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -17,6 +17,7 @@ layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) coherent buffer Islands { uint islands[]; };
 layout(std430) buffer Substeps { uint substeps[]; };
+layout(std430) buffer IslandSizes { uint island_sizes[]; };
 layout(std430) buffer IslandFill { uint island_fill[]; };
 
 // The root of a body's tree. On the way each body is led to its grandparent: an invocation that still sees the parent
@@ -58,6 +59,7 @@ void main()
     bool pushes_b = islands[manifold.body_b] != k_none;
     if (pushes_a) atomicMax(substeps[manifold.body_a], substeps_of(manifold.demand));
     if (pushes_b) atomicMax(substeps[manifold.body_b], substeps_of(manifold.demand));
+    if (pushes_a && pushes_b && tallness(manifold.demand) == 1u) island_sizes[manifold.body_a] = k_tall;
     if (pushes_a && pushes_b) join(manifold.body_a, manifold.body_b);
     if (!pushes_a && island_fill[manifold.body_a] == k_awake) island_fill[manifold.body_b] = k_awake;
     if (!pushes_b && island_fill[manifold.body_b] == k_awake) island_fill[manifold.body_a] = k_awake;

@@ -17,7 +17,9 @@ static void join_islands_on_cpu(CpuState& state, const Launch&) {
         if (islands[b] != k_none) state.substeps[b] = max(state.substeps[b], substeps_of(manifold.demand));
         if (islands[a] == k_none && state.island_fill[a] == k_awake) state.island_fill[b] = k_awake;
         if (islands[b] == k_none && state.island_fill[b] == k_awake) state.island_fill[a] = k_awake;
-        if (islands[a] != k_none && islands[b] != k_none) join_islands_of(islands, a, b);
+        if (islands[a] == k_none || islands[b] == k_none) continue;
+        if (tallness(manifold.demand) == 1) state.island_sizes[a] = k_tall;
+        join_islands_of(islands, a, b);
     }
 }
 

@@ -32,20 +32,20 @@ void ConstraintBatches::take(const CpuState& state, uint batch) {
     lane_passes().take_constraints(state, indices_of(batch), size_of(batch), memory_of(batch));
 }
 
-void ConstraintBatches::pass_over(CpuState& state, ContactPass pass, uint substep, uint batch) {
-    uint left_alone = lane_passes().pass_over_constraints(state, pass, substep, memory_of(batch));
+void ConstraintBatches::pass_over(CpuState& state, ContactPass pass, uint tick, uint batch) {
+    uint left_alone = lane_passes().pass_over_constraints(state, pass, tick, memory_of(batch));
     for (; left_alone != 0; left_alone &= left_alone - 1)
-        pass_over_constraint(state, pass, substep, indices_of(batch)[findLSB(left_alone)]);
+        pass_over_constraint(state, pass, tick, indices_of(batch)[findLSB(left_alone)]);
 }
 
 void BodyBatches::take(const CpuState& state, uint batch) {
     lane_passes().take_bodies(state, indices_of(batch), size_of(batch), memory_of(batch));
 }
 
-void BodyBatches::integrate(CpuState& state, uint substep, uint batch) {
-    uint left_alone = lane_passes().integrate_bodies(state, substep, memory_of(batch));
+void BodyBatches::integrate(CpuState& state, uint tick, uint batch) {
+    uint left_alone = lane_passes().integrate_bodies(state, tick, memory_of(batch));
     for (; left_alone != 0; left_alone &= left_alone - 1)
-        integrate_body(state, indices_of(batch)[findLSB(left_alone)], substep);
+        integrate_body(state, indices_of(batch)[findLSB(left_alone)], tick);
 }
 
 } // namespace talus::engine

@@ -33,12 +33,12 @@ struct LanePasses {
     /// Of constraints that are prepared. No two may share a body that can be pushed, but a hub.
     void (*take_constraints)(const CpuState&, const uint* indices, uint count, void* batch);
     /// See pass_over_constraint.
-    uint (*pass_over_constraints)(const CpuState&, ContactPass, uint substep, void* batch);
+    uint (*pass_over_constraints)(const CpuState&, ContactPass, uint tick, void* batch);
 
     std::size_t body_batch_bytes;
     void (*take_bodies)(const CpuState&, const uint* indices, uint count, void* batch);
     /// See integrate_body.
-    uint (*integrate_bodies)(const CpuState&, uint substep, void* batch);
+    uint (*integrate_bodies)(const CpuState&, uint tick, void* batch);
 };
 
 /// For the widest registers that this machine has.
@@ -77,14 +77,14 @@ public:
         Batches::assign(std::move(indices), lane_passes().constraint_batch_bytes);
     }
     void take(const CpuState&, uint batch);
-    void pass_over(CpuState&, ContactPass, uint substep, uint batch);
+    void pass_over(CpuState&, ContactPass, uint tick, uint batch);
 };
 
 class BodyBatches : public Batches {
 public:
     void assign(std::vector<uint> indices) { Batches::assign(std::move(indices), lane_passes().body_batch_bytes); }
     void take(const CpuState&, uint batch);
-    void integrate(CpuState&, uint substep, uint batch);
+    void integrate(CpuState&, uint tick, uint batch);
 };
 
 } // namespace talus::engine

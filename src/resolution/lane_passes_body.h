@@ -35,6 +35,11 @@ TALUS_LANE BodyWarmStart warm_starts_at(const CpuState& state, const std::uint32
     return {three_of(a), a.w, three_of(b), b.w, three_of(c), c.w, three_of(d), d.w};
 }
 
+TALUS_LANE BodyDelta choose(Mask m, const BodyDelta& yes, const BodyDelta& no) {
+    return {choose(m, yes.position, no.position), choose(m, yes.reserved, no.reserved),
+            choose(m, yes.rotation, no.rotation)};
+}
+
 TALUS_LANE void put_warm_starts(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
                                 const BodyWarmStart& w) {
     scatter(state.warm_starts.data, bodies, 0, lanes, {w.linear.x, w.linear.y, w.linear.z, w.shift_x});
@@ -203,7 +208,7 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     const Lanes inverse_mass_b = gather(state.velocities.data, body_b, 0).w;
 
     ContactConstraint c = begin_constraint(manifold, ULanes(manifold_indices), ULanes(colours), Lanes(hub_shares),
-                                           inverse_mass_a, inverse_mass_b, inertia_a, inertia_b);
+                                           inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, state.parameters);
     const auto has_point = [&](std::uint32_t i) __attribute__((always_inline)) {
         return ULanes(i) < c.point_count;
     };
@@ -232,6 +237,26 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
 
 // ---- the passes ----
 
+/// In which ticks some of a batch may have a sub-step.
+struct Ticks {
+    std::uint32_t end;      ///< from here on none has
+    std::uint32_t slowness; ///< of the fastest
+};
+
+inline Ticks no_ticks() {
+    return {0, engine::k_most_doublings};
+}
+
+inline Ticks join_ticks(Ticks ticks, std::uint32_t substeps, std::uint32_t traits) {
+    const std::uint32_t end = engine::ticks_of(substeps, traits), slowness = engine::slowness(traits);
+    return {end > ticks.end ? end : ticks.end, slowness < ticks.slowness ? slowness : ticks.slowness};
+}
+
+/// `before_end`: whether the tick is not beyond the last that counts.
+inline bool has_any(Ticks ticks, std::uint32_t tick, bool before_end) {
+    return before_end && (tick & ((1u << ticks.slowness) - 1u)) == 0;
+}
+
 struct Places {
     BodyOffsets body_a, body_b;
     std::uint32_t constraint[k_lanes];
@@ -243,9 +268,10 @@ struct ConstraintBatch {
     Places places;
     std::uint32_t lanes; ///< a bit for each that has one
     std::uint32_t stale; ///< a bit for each whose impulses are the record's, as it was left alone
-    std::uint32_t most_substeps;
+    Ticks ticks;
+    bool in_parts; ///< some body has more sub-steps than its constraint
     ULanes body_a, body_b, traits, substeps;
-    Lanes hub_share, load_speed;
+    Lanes hub_share, load_speed, part_a, part_b;
     Substep substep;
     Lanes half_h; ///< s, half of the movement that follows a pass in a sub-step
     vec3 gap;
@@ -301,17 +327,17 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ConstraintBatch& c,
 
 /// As in contact_passes.h.
 TALUS_LANE void put_velocity(const CpuState& state, const Places& places, const BodyOffsets& bodies,
-                             std::uint32_t lanes, ULanes body, ULanes its_traits, Lanes hub_share,
+                             std::uint32_t lanes, ULanes body, ULanes its_traits, Lanes hub_share, std::uint32_t tick,
                              const BodyVelocity& before, const BodyVelocity& after) {
     const std::uint32_t of_hubs = bits_of((its_traits & k_trait_hub) != 0u);
     put_velocities(state, bodies, lanes & ~of_hubs, after);
     const std::uint32_t shares = lanes & of_hubs & bits_of(after.inverse_mass != 0.0f);
     if (shares == 0) return;
-    const HubChange change = change_of_hub(body, before, after, hub_share);
+    const HubChange change = change_of_hub(body, before, after, hub_share, tick);
     scatter(state.hub_changes.data, places.hub_change, 0, shares,
             {change.linear.x, change.linear.y, change.linear.z, uintBitsToFloat(change.body)});
     scatter(state.hub_changes.data, places.hub_change, 1, shares,
-            {change.angular.x, change.angular.y, change.angular.z, change.reserved});
+            {change.angular.x, change.angular.y, change.angular.z, uintBitsToFloat(change.tick)});
 }
 
 /// Of constraints that are prepared; see LanePasses.
@@ -320,14 +346,14 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
     Places& places = batch.places;
     batch.lanes = (1u << count) - 1u;
     batch.stale = batch.lanes;
-    batch.most_substeps = 0;
+    batch.ticks = no_ticks();
     for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
         const std::uint32_t index = indices[lane < count ? lane : 0];
         const engine::ContactConstraint& c = state.constraints.data[index];
         places.constraint[lane] = index;
         places.body_a.bytes[lane] = sizeof(engine::BodyVelocity) * c.body_a;
         places.body_b.bytes[lane] = sizeof(engine::BodyVelocity) * c.body_b;
-        batch.most_substeps = c.substeps > batch.most_substeps ? c.substeps : batch.most_substeps;
+        batch.ticks = join_ticks(batch.ticks, c.substeps, c.traits);
         if ((c.traits & (k_trait_hub | k_trait_hub << engine::k_traits_of_b)) != 0)
             places.hub_change[lane] = index - state.colour_offsets[k_first_hub_colour];
     }
@@ -343,18 +369,23 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
     batch.half_h = choose(against_static, 0.5f * substep_length(c.substeps, state.parameters), 0.0f);
     batch.gap = c.gap;
     batch.base_separation = c.base_separation;
-    batch.rows = make_rows(c, inertias_at(state, places.body_a), inertias_at(state, places.body_b));
+    const BodyInertia inertia_a = inertias_at(state, places.body_a), inertia_b = inertias_at(state, places.body_b);
+    batch.rows = make_rows(c, inertia_a, inertia_b);
+    batch.part_a = part_of_change(c.traits, inertia_a.traits);
+    batch.part_b = part_of_change(c.traits, inertia_b.traits);
+    batch.in_parts = any_lane(batch.part_a < 1.0f || batch.part_b < 1.0f);
 }
 
 /// As pass_over_constraint in contact_passes.h.
-inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t substep, void* memory) {
+inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t tick, void* memory) {
     ConstraintBatch& batch = *static_cast<ConstraintBatch*>(memory);
-    if (substep >= batch.most_substeps) return 0;
+    if (!has_any(batch.ticks, tick, tick < batch.ticks.end)) return 0;
     const Places& places = batch.places;
     if (batch.stale != 0)
         batch.impulses = choose(mask_of(batch.stale), impulses_at(state, places.constraint), batch.impulses);
     batch.stale = 0;
-    const Mask takes_part = ULanes(substep) < batch.substeps;
+    const ULanes substep = substep_at(tick, batch.traits);
+    const Mask takes_part = substep < batch.substeps;
     std::uint32_t active = batch.lanes & bits_of(takes_part);
     const ManifoldRows& rows = batch.rows;
     const ManifoldState before{
@@ -371,14 +402,18 @@ inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, st
         active &= ~batch.stale;
         batch.impulses = active == k_lane_mask ? s.impulses : choose(mask_of(active), s.impulses, before.impulses);
         const bool is_last = pass == ContactPass::Relax;
-        const std::uint32_t ending = active & bits_of(Mask(is_last) || batch.substeps <= ULanes(substep + 1));
+        const std::uint32_t ending = active & bits_of(Mask(is_last) || batch.substeps <= substep + 1u);
         if (ending != 0) put_impulses(state, places.constraint, ending, s.impulses, batch);
     }
+    if (batch.in_parts && pass != ContactPass::Relax) {
+        s.velocities.a = change_in_part(before.velocities.a, s.velocities.a, batch.part_a);
+        s.velocities.b = change_in_part(before.velocities.b, s.velocities.b, batch.part_b);
+    }
     const ULanes traits_of_b = batch.traits >> k_traits_of_b;
-    put_velocity(state, places, places.body_a, active, batch.body_a, batch.traits, batch.hub_share, before.velocities.a,
-                 s.velocities.a);
-    put_velocity(state, places, places.body_b, active, batch.body_b, traits_of_b, batch.hub_share, before.velocities.b,
-                 s.velocities.b);
+    put_velocity(state, places, places.body_a, active, batch.body_a, batch.traits, batch.hub_share, tick,
+                 before.velocities.a, s.velocities.a);
+    put_velocity(state, places, places.body_b, active, batch.body_b, traits_of_b, batch.hub_share, tick,
+                 before.velocities.b, s.velocities.b);
     return batch.stale;
 }
 
@@ -387,7 +422,7 @@ struct BodyBatch {
     BodyOffsets offsets;
     std::uint32_t indices[k_lanes];
     std::uint32_t lanes; ///< a bit for each that moves
-    std::uint32_t most_substeps;
+    Ticks ticks;
     Mask rigid;
     ULanes substeps;
     Lanes h; ///< s
@@ -402,7 +437,7 @@ struct BodyBatch {
 inline void take_bodies(const CpuState& state, const std::uint32_t* indices, std::uint32_t count, void* memory) {
     BodyBatch& batch = *static_cast<BodyBatch*>(memory);
     batch.lanes = 0;
-    batch.most_substeps = 0;
+    batch.ticks = no_ticks();
     std::uint32_t rigid = 0; // bits
     for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
         const std::uint32_t body = indices[lane < count ? lane : 0], bit = 1u << lane;
@@ -414,7 +449,7 @@ inline void take_bodies(const CpuState& state, const std::uint32_t* indices, std
             (state.poses.data[body].flags & k_body_frozen) != 0)
             continue;
         batch.lanes |= bit;
-        batch.most_substeps = substeps > batch.most_substeps ? substeps : batch.most_substeps;
+        batch.ticks = join_ticks(batch.ticks, substeps, state.inertias.data[body].traits);
         if (kind == k_kind_rigid) rigid |= bit;
     }
     batch.rigid = mask_of(rigid);
@@ -428,15 +463,16 @@ inline void take_bodies(const CpuState& state, const std::uint32_t* indices, std
 }
 
 /// As integrate_body in body_passes.h.
-inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t substep, void* memory) {
+inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t tick, void* memory) {
     BodyBatch& batch = *static_cast<BodyBatch*>(memory);
-    if (batch.lanes == 0 || substep > batch.most_substeps) return 0;
-    const std::uint32_t active = batch.lanes & bits_of(ULanes(substep) <= batch.substeps);
-    const std::uint32_t going_on = active & bits_of(ULanes(substep) < batch.substeps);
+    if (batch.lanes == 0 || !has_any(batch.ticks, tick, tick <= batch.ticks.end)) return 0;
+    const ULanes substep = substep_at(tick, batch.inertia.traits);
+    const std::uint32_t active = batch.lanes & bits_of(substep <= batch.substeps);
+    const std::uint32_t going_on = active & bits_of(substep < batch.substeps);
     BodyVelocity velocity = velocities_at(state, batch.offsets);
     BodyWarmStart warm = warm_starts_at(state, batch.indices);
     BodyDelta delta = batch.delta;
-    if (substep > 0) {
+    if (tick > 0) {
         const BodyVelocity limited = limit_speeds(velocity, state.parameters);
         warm = leave_out(warm, velocity, limited);
         velocity = limited;
@@ -459,9 +495,9 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t subste
         scatter(state.velocities.data, batch.offsets, 1, going_on & ~unusual,
                 {velocity.angular.x, velocity.angular.y, velocity.angular.z, velocity.reserved});
     }
-    if (substep > 0) {
+    if (tick > 0) {
         put_deltas(state, batch.offsets, active & ~unusual, delta);
-        batch.delta = delta; // of those that are done it is not asked again
+        batch.delta = choose(mask_of(active), delta, batch.delta);
     }
     batch.lanes &= ~unusual; // they are frozen
     return unusual;

@@ -56,13 +56,14 @@ inline uint fewer_substeps(uint substeps, Parameters p)
     return fewer;
 }
 
-// How many are enough for a load, and for the height of what carries it.
-inline float needed_substeps(float weights, uint height, bool against_static)
+// How many are enough for a load, and for the height of what carries it. `yielding`: how far the contact gives way to a load,
+// as a multiple of what two equal boxes do on a face.
+inline float needed_substeps(float weights, float yielding, uint height, bool against_static)
 {
     precise float high = min(float(height), weights);
     precise float bending = high + k_end_load * (weights - high);
     precise float against_buckling = k_substeps_against_buckling * high * square_root(bending);
-    precise float against_overlap = k_substeps_against_overlap * square_root(weights);
+    precise float against_overlap = k_substeps_against_overlap * square_root(weights * yielding);
     float most = max(against_overlap, against_buckling);
     precise float needed = most * choose(against_static, 0.5f, 1.0f); // its frequency is twice as high
     return needed;
@@ -157,3 +158,15 @@ inline uint make_demand(uint substeps, uint idle_steps, uint height)
 inline uint substeps_of(uint demand) { return demand & 0xfffu; }
 inline uint idle_steps_of(uint demand) { return (demand >> 12u) & 0xfffu; }
 inline uint height_of(uint demand) { return demand >> 24u; }
+
+// A tall column has to be as stiff above as it is at its foot: see multirate.shared.glsl. Heaps have none of this height.
+const uint k_tall_height = 20u; // contacts
+
+// 1 in a tall column, else 0.
+inline uint tallness(uint demand) { return min(height_of(demand) / k_tall_height, 1u); }
+
+// Whether the same islands with the same sub-steps follow from both.
+inline bool asks_alike(uint demand, uint other)
+{
+    return substeps_of(demand) == substeps_of(other) && tallness(demand) == tallness(other);
+}

@@ -38,5 +38,6 @@ void main()
     if (island_fill[body] == k_awake && island_fill[island] != k_awake) island_fill[island] = k_awake; // others write the same
     bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
     atomicAdd(island_sizes[island], is_hub ? 1u + k_most_single : 1u);
+    if (body != island && (island_sizes[body] & k_tall) != 0u) atomicOr(island_sizes[island], k_tall);
     atomicAdd(island_starts[island], 1u);
 }

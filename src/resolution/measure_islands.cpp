@@ -15,6 +15,7 @@ static void measure_islands_on_cpu(CpuState& state, const Launch&) {
         if (state.island_fill[body] == k_awake) state.island_fill[island] = k_awake;
         const bool is_hub = state.body_colours[body_word(body, k_hub_word)] != 0;
         state.island_sizes[island] += is_hub ? 1 + k_most_single : 1;
+        state.island_sizes[island] |= state.island_sizes[body] & k_tall;
         ++state.island_starts[island];
     }
 }

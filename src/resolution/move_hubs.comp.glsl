@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One group is a hub: adds up what the constraints of one colour have done to it.
-// args.x: the colour; args.z: the sub-step.
+// args.x: the colour; args.z: the tick.
 // Reads: Hubs, HubChanges, ColourOffsets, Inertias.
 // Writes: Velocities.
 // Needs: a barrier after solve_hub_contacts of the colour.
@@ -8,6 +8,7 @@
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
 

@@ -9,17 +9,18 @@ const uint k_hub_keeper = k_hub_group - 1u; // the invocation that moves a hub
 shared HubChange hub_sums[k_hub_group];
 
 // In uniform control flow.
-void move_hub_by_colour(uint hub, uint colour, uint substep)
+void move_hub_by_colour(uint hub, uint colour, uint tick)
 {
     uint me = gl_LocalInvocationID.x;
-    if (substep >= unpack(inertias[hub]).substeps || load_velocity(hub).inverse_mass == 0.0) return;
+    BodyInertia inertia = unpack(inertias[hub]);
+    if (substep_at(tick, inertia.traits) >= inertia.substeps || load_velocity(hub).inverse_mass == 0.0) return;
     uint first = colour_offsets[k_first_hub_colour];
     uint end = colour_offsets[colour + 1u] - first;
     if (me < k_hub_group) {
         HubChange sum = no_change(hub);
         for (uint i = colour_offsets[colour] - first + me; i < end; i += k_hub_group) {
             HubChange change = load_change(i);
-            if (change.body == hub) sum = add_changes(sum, change);
+            if (change.body == hub && change.tick == tick) sum = add_changes(sum, change);
         }
         hub_sums[me] = sum;
     }

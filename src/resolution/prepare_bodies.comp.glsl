@@ -11,6 +11,7 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/sleep.shared.glsl"
 #include "resolution/body.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 
@@ -49,10 +50,13 @@ void main()
         atomicAdd(counters[k_counter_sleeping_bodies], 1u);
         return;
     }
-    uint its_substeps = args.x == 1u ? substeps[body] : counters[k_counter_launched_substeps];
+    uint ticks = counters[k_counter_launched_substeps];
+    uint word = args.x == 1u ? substeps[body] : ticks;
+    uint its_substeps = number_of_substeps(word);
     BodyInertia inertia = world_inertia(pose.rotation, unpack(properties[body]).inverse_inertia,
                                         traits_of_body(unpack(shapes[body]), pose), its_substeps);
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);
+    if (word != its_substeps) inertia.traits |= rate_trait(ticks, its_substeps);
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
     if (is_in_launched_bodies(inertia))

@@ -22,10 +22,13 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
             std::atomic_ref(state.counters[k_counter_sleeping_bodies]).fetch_add(1);
             return;
         }
-        const uint substeps = launch.args[0] == 1 ? state.substeps[body] : state.counters[k_counter_launched_substeps];
+        const uint ticks = state.counters[k_counter_launched_substeps];
+        const uint word = launch.args[0] == 1 ? state.substeps[body] : ticks;
+        const uint substeps = number_of_substeps(word);
         state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia,
                                              traits_of_body(state.shapes[body], pose), substeps);
         state.inertias[body].traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);
+        if (word != substeps) state.inertias[body].traits |= rate_trait(ticks, substeps);
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
             state.inertias[body].traits |= k_trait_grouped;
         if (is_in_launched_bodies(state.inertias[body])) {

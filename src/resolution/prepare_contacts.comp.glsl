@@ -2,7 +2,7 @@
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
 // args.x, args.y: the first pair that is wanted, and how many are.
 // Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, BodyColours, Velocities, Inertias.
-// Writes: Constraints, ToldLoads.
+// Writes: Constraints, ToldLoads; ColourTicks, of what is launched.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -11,6 +11,7 @@
 #include "resolution/hub_load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
@@ -27,6 +28,7 @@ layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
+layout(std430) buffer ColourTicks { uint colour_ticks[]; };
 layout(std430) buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 
@@ -50,6 +52,15 @@ void tell_load(LoadBelow load, uint height)
     atomicMax(told_loads[k_told_words * load.body + k_told_height], height);
 }
 
+// In how many ticks the colour has a contact with a sub-step, where they differ. That it is the least number is the rule, and
+// not noted.
+void note_ticks(uint colour, uint traits)
+{
+    uint ticks = counters[k_counter_launched_substeps] >> slowness(traits);
+    if (counters[k_counter_multirate_islands] == 0u) return;
+    if (ticks > parameters.least_substeps && colour_ticks[colour] < ticks) atomicMax(colour_ticks[colour], ticks);
+}
+
 void main()
 {
     uint index = item_index();
@@ -64,7 +75,7 @@ void main()
     uint colour = colour_of_key(manifold_keys[index]);
     ContactConstraint c =
         begin_constraint(manifold, manifold_index, colour, share_of_contact(manifold, manifold_index, colour),
-                         inverse_mass_a, inverse_mass_b, inertia_a, inertia_b);
+                         inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, parameters);
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
         c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]));
@@ -81,5 +92,6 @@ void main()
     }
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
     c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, parameters);
+    if (((inertia_a.traits | inertia_b.traits) & k_trait_grouped) == 0u) note_ticks(colour, c.traits);
     pack_ContactConstraint(constraints, index, c);
 }

@@ -20,12 +20,24 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
                         word(k_whole_load) - word(k_unshared_load), shares_of_hub(word(k_new_edges), word(k_hub_word)));
 }
 
+static void raise_to(uint& word, uint value) {
+    const std::atomic_ref highest(word);
+    for (uint before = highest.load(); before < value && !highest.compare_exchange_weak(before, value);) {
+    }
+}
+
 void tell_load(const CpuState& state, const LoadBelow& load, uint height) {
     uint* const told = &state.told_loads[k_told_words * load.body];
     std::atomic_ref(told[k_told_mass]).fetch_add(load.mass, std::memory_order_relaxed);
-    const std::atomic_ref highest(told[k_told_height]);
-    for (uint before = highest.load(); before < height && !highest.compare_exchange_weak(before, height);) {
-    }
+    raise_to(told[k_told_height], height);
+}
+
+/// In how many ticks the colour has a contact with a sub-step. That it is the least number is the rule, and not noted.
+static void note_ticks(const CpuState& state, uint colour, const ContactConstraint& c) {
+    const uint of_bodies = state.inertias[c.body_a].traits | state.inertias[c.body_b].traits;
+    const uint ticks = state.counters[k_counter_launched_substeps] >> slowness(c.traits);
+    if ((of_bodies & k_trait_grouped) == 0 && ticks > state.parameters.least_substeps)
+        raise_to(state.colour_ticks[colour], ticks);
 }
 
 static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
@@ -40,6 +52,8 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
             contacts[count++] = {index, manifold, colour, share_of_contact(state, manifold, colour)};
         }
         if (count > 0) lane_passes().prepare_contacts(state, contacts, count);
+        for (uint i = 0; i < count && state.counters[k_counter_multirate_islands] > 0; ++i)
+            note_ticks(state, contacts[i].colour, state.constraints[contacts[i].index]);
     };
     state.parallel((manifold_count + lanes - 1) / lanes, prepare_part, k_parallel_grain / 4 / lanes);
 }

@@ -30,7 +30,9 @@ static void find_island_groups(Device& device, const StepPlan& plan) {
     device.run({.kernel = join_islands, .slot = k_dispatch_pairs});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_body_count, k_none);
-    device.run({.kernel = group_islands, .items = plan.body_count, .args = {plan.has_groups(), plan.singles}});
+    device.run({.kernel = group_islands,
+                .items = plan.body_count,
+                .args = {plan.has_groups(), plan.singles, plan.multirate_from()}});
     device.run({.kernel = key_manifolds, .slot = k_dispatch_pairs});
 }
 
@@ -73,10 +75,11 @@ void prepare(Device& device, const StepPlan& plan) {
     run_on_near_pairs(device, plan, prepare_contacts);
 }
 
-/// One pass over all manifolds that have this sub-step, colour by colour; those of hubs and the overflow set come last.
-static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass pass, uint substep) {
+/// One pass over all manifolds that have a sub-step at this tick, colour by colour; those of hubs and the overflow set
+/// come last.
+static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass pass, uint tick) {
     const auto launch = [&](const Kernel& kernel, uint colour, uint slot) {
-        device.run({.kernel = kernel, .slot = slot, .args = {colour, static_cast<uint>(pass), substep}});
+        device.run({.kernel = kernel, .slot = slot, .args = {colour, static_cast<uint>(pass), tick}});
     };
     for (uint colour = k_first_hub_colour - plan.colour_capacity; colour < k_first_hub_colour; ++colour)
         launch(solve_contacts, colour, k_dispatch_colours + colour);
@@ -89,9 +92,10 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
 
 void solve(Device& device, const StepPlan& plan) {
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
+    const Kernel& persistent = persistent_solver(plan);
     if (plan.persistent_groups > 0 && plan.needs_launches())
-        device.run({.kernel = solve_persistent,
-                    .items = plan.persistent_groups * solve_persistent.items_a_group,
+        device.run({.kernel = persistent,
+                    .items = plan.persistent_groups * persistent.items_a_group,
                     .overlaps_next = plan.in_groups});
     if (plan.in_groups) {
         const Kernel& of_small = plan.bounces ? solve_bouncing_islands : solve_islands;
@@ -105,8 +109,8 @@ void solve(Device& device, const StepPlan& plan) {
     if (!plan.needs_launches() || plan.substep_capacity == 0 || plan.persistent_groups > 0) return;
     for_each_pass(
         plan.substep_capacity, plan.iterations, plan.relax,
-        [&](uint substep) { device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {substep}}); },
-        [&](ContactPass pass, uint substep) { pass_over_contacts(device, plan, pass, substep); });
+        [&](uint tick) { device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {tick}}); },
+        [&](ContactPass pass, uint tick) { pass_over_contacts(device, plan, pass, tick); });
 }
 
 void store_impulses(Device& device, const StepPlan& plan) {

@@ -20,6 +20,8 @@ void prepare(Device&, const StepPlan&);
 void solve(Device&, const StepPlan&);
 /// Impulses and colours go back to the manifolds, for the next step's warm start.
 void store_impulses(Device&, const StepPlan&);
+/// The kernel that makes all passes in one launch.
+const Kernel& persistent_solver(const StepPlan&);
 
 extern const Kernel clear_colours;
 extern const Kernel keep_colours;
@@ -45,6 +47,7 @@ extern const Kernel solve_bouncing_groups;
 extern const Kernel solve_single_islands;
 extern const Kernel solve_bouncing_singles;
 extern const Kernel solve_persistent;
+extern const Kernel solve_multirate;
 extern const Kernel store_contact_impulses;
 extern const Kernel wake_bodies;
 extern const Kernel wake_neighbours;

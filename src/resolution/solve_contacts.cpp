@@ -21,13 +21,13 @@ SolverBatches& solver_batches(CpuState& state) {
 }
 
 void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
-    const uint colour = launch.args[0], substep = launch.args[2];
+    const uint colour = launch.args[0], tick = launch.args[2];
     const auto pass = static_cast<ContactPass>(launch.args[1]);
     const uint first = state.colour_offsets[colour];
     const uint count = state.colour_offsets[colour + 1] - first;
     if (colour == k_overflow_colour) { // one after the other
         for (uint i = 0; i < count; ++i)
-            pass_over_constraint(state, pass, substep, first + i);
+            pass_over_constraint(state, pass, tick, first + i);
         return;
     }
     const uint grain = k_parallel_grain / 4 / lane_passes().lanes;
@@ -40,7 +40,7 @@ void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
             batches.count(), [&](uint batch) { batches.take(state, batch); }, grain);
     }
     state.parallel(
-        batches.count(), [&](uint batch) { batches.pass_over(state, pass, substep, batch); }, grain);
+        batches.count(), [&](uint batch) { batches.pass_over(state, pass, tick, batch); }, grain);
 }
 
 const Kernel solve_contacts{"resolution/solve_contacts", solve_contacts_on_cpu};

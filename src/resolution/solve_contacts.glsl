@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold of one colour: one pass of sequential impulses over its points (thesis, section 3.4).
-// args.x: the colour; args.y: the pass, k_warm_start, k_solve, ...; args.z: the sub-step. No two manifolds of a colour
+// args.x: the colour; args.y: the pass, k_warm_start, k_solve, ...; args.z: the tick. No two manifolds of a colour
 // share a body that they could push. The overflow set is solved one after the other by a single invocation.
 // Before this file the kernel defines k_hubs: whether the colour is one for contacts of hubs. Where there are hubs nothing
 // bounces.
@@ -12,6 +12,7 @@
 #include "resolution/body.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/contact.shared.glsl"
 #include "resolution/hub.shared.glsl"
@@ -32,6 +33,7 @@ void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(
 BodyDelta load_delta(uint body) { return load_stored_delta(body); }
 
 const bool k_bounces = !k_hubs;
+const bool k_multirate_islands = true;
 
 void put_change(uint index, HubChange change)
 {
@@ -50,11 +52,12 @@ void main()
         end = min(end, index + 1u);
     }
     for (; index < end; ++index) {
-        if (args.z >= cell_in_block(constraints, index, 5u).w) continue; // its substeps
+        uint substep = substep_at(args.z, cell_in_block(constraints, index, 4u).w); // its traits
+        if (substep >= cell_in_block(constraints, index, 5u).w) continue;           // its substeps
         take_constraint(index);
         PassTarget target;
         if (args.y != k_warm_start) target = target_of_pass(args.y);
-        pass_over_constraint(args.y, index, target);
+        pass_over_constraint(args.y, args.z, index, target);
         if (args.y != k_warm_start) put_back_impulses(index);
     }
 }

@@ -39,6 +39,8 @@ void store_velocity(uint slot, BodyVelocity velocity)
     angular[3u * slot + 2u] = velocity.angular.z;
 }
 
+const bool k_multirate_islands = false; // they are too large
+
 #include "resolution/stored_deltas.glsl"
 
 const uint k_delta_room = k_deltas_have_room ? k_room + 1u : 1u;
@@ -137,14 +139,15 @@ void wait_for_workers()
 uvec3 own_manifolds(uint begin) { return uvec3(begin + worker(), gl_WorkGroupSize.x, begin); }
 void wait_for_few() {} // all are one group
 
-void integrate_own_bodies(uint substep)
+void integrate_own_bodies(uint tick)
 {
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
-        if (((own_bodies >> i) & 1u) == 1u) integrate_body(own_body(i), substep);
+        if (((own_bodies >> i) & 1u) == 1u) integrate_body(own_body(i), tick);
     }
 }
 
-void finish_colour(uint colour, uint substep) {}
+bool has_colour(uint colour, uint tick) { return true; }
+void finish_colour(uint colour, uint tick) {}
 void wait_for_finish() {}
 
 #include "resolution/solve_substeps.glsl"

@@ -53,21 +53,21 @@ void solve_together(CpuState& state, const IslandWork& islands) {
         for (uint batch = 0; batch < colours[colour].count(); ++batch)
             colours[colour].take(state, batch);
     }
-    const auto over_contacts = [&](ContactPass pass, uint substep) {
+    const auto over_contacts = [&](ContactPass pass, uint tick) {
         for (ConstraintBatches& colour : colours)
             for (uint batch = 0; batch < colour.count(); ++batch)
-                colour.pass_over(state, pass, substep, batch);
+                colour.pass_over(state, pass, tick, batch);
         for (const uint index : islands.colours[k_overflow_colour])
-            pass_over_constraint(state, pass, substep, index);
+            pass_over_constraint(state, pass, tick, index);
     };
     uint last = 0;
     for (const uint body : islands.bodies)
         last = max(last, state.inertias[body].substeps);
     for_each_pass(
         last, p.iterations, p.relax == 1,
-        [&](uint substep) {
+        [&](uint tick) {
             for (uint batch = 0; batch < bodies.count(); ++batch)
-                bodies.integrate(state, substep, batch);
+                bodies.integrate(state, tick, batch);
         },
         over_contacts);
 }

@@ -9,6 +9,7 @@
 #include "resolution/body.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/contact.shared.glsl"
 #include "resolution/hub.shared.glsl"

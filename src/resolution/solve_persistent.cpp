@@ -1,30 +1,36 @@
 // SPDX-License-Identifier: MIT
-// CPU twin of solve_persistent.comp.glsl: the launches that it stands for.
+// CPU twin of solve_persistent.comp.glsl and solve_multirate.comp.glsl: the launches that it stands for.
 #include <array>
 
 #include "resolution/contact_passes.h"
 #include "resolution/resolution.h"
 #include "resolution/solve_contacts.h"
+#include "step.h"
 
 namespace talus::engine {
 
 static void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
     if (state.counters[k_counter_did_not_fit] != 0) return;
     const Parameters& p = state.parameters;
-    const auto over_contacts = [&](ContactPass pass, uint substep) {
+    const auto over_contacts = [&](ContactPass pass, uint tick) {
         for (uint colour = 0; colour <= k_overflow_colour; ++colour) {
-            const std::array args{colour, static_cast<uint>(pass), substep, 0u};
+            const std::array args{colour, static_cast<uint>(pass), tick, 0u};
             solve_contacts_on_cpu(state, {.kernel = launch.kernel, .args = args});
             if (is_hub_colour(colour)) move_hubs.twin(state, {.kernel = move_hubs, .args = args});
         }
     };
     const uint last = max(state.counters[k_counter_launched_substeps], p.least_substeps);
-    const auto integrate = [&](uint substep) {
-        integrate_bodies.twin(state, {.kernel = integrate_bodies, .args = {substep}});
+    const auto integrate = [&](uint tick) {
+        integrate_bodies.twin(state, {.kernel = integrate_bodies, .args = {tick}});
     };
     for_each_pass(last, p.iterations, p.relax == 1, integrate, over_contacts);
 }
 
 const Kernel solve_persistent{"resolution/solve_persistent", solve_persistent_on_cpu, 384};
+const Kernel solve_multirate{"resolution/solve_multirate", solve_persistent_on_cpu, 384};
+
+const Kernel& persistent_solver(const StepPlan& plan) {
+    return plan.may_be_multirate() ? solve_multirate : solve_persistent;
+}
 
 } // namespace talus::engine

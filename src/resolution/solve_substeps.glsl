@@ -12,9 +12,10 @@
 //     next; and where those of the first colours end that some workers solve among themselves
 //   void wait_for_workers(): until all are here, and what they have written is seen
 //   void wait_for_few(): the same of those workers, after one of these colours but the last
-//   void finish_colour(uint colour, uint substep): what follows a colour's pass, once all are here
+//   bool has_colour(uint colour, uint tick): whether some manifold of the colour may have a sub-step then
+//   void finish_colour(uint colour, uint tick): what follows a colour's pass, once all are here
 //   void wait_for_finish(): until all see what it has changed
-//   void integrate_own_bodies(uint substep): integrate_body for the worker's bodies
+//   void integrate_own_bodies(uint tick): integrate_body for the worker's bodies
 
 uint end_index;     // of the manifolds with a colour; the overflow set follows
 uint own_end;       // of those that the worker may have: the overflow set is the first one's
@@ -23,6 +24,9 @@ uint first_index;   // the worker's first manifold; k_none: it has none
 uint stride;        // to its next one
 uint end_of_few;    // of the manifolds of the first colours, if some of the workers solve those
 uint index_in_hand; // k_none: none
+uint like_substeps; // the number that most have
+uint ticks_apart;   // from one of these to the next
+uint unlike_marks;  // bits for its manifolds in turns: one of them may have another number
 
 uint if_own(uint index) { return index < own_end ? index : k_none; }
 
@@ -46,17 +50,27 @@ void find_own_manifolds()
     index_in_hand = k_none;
 }
 
-// Whether the manifold has had all its sub-steps. All have the least number, so that early on none is asked.
-bool is_done(uint index, uint substep)
+bool is_multirate_solve() { return k_multirate_islands && counters[k_counter_multirate_islands] > 0u; }
+
+uint mark_of(uint index) { return 1u << ((index - first_index) / stride & 31u); }
+
+bool is_unlike(uint index) { return index >= end_index || (unlike_marks & mark_of(index)) != 0u; }
+
+// Whether the manifold has a sub-step at this tick. Where most are known to have or not to have one they are not asked: a load
+// for each would take as long as the passes do.
+bool has_substep(uint index, uint tick)
 {
-    if (substep < parameters.least_substeps) return false;
-    return substep >= (index == index_in_hand ? substeps : cell_in_block(constraints, index, 5u).w);
+    if (tick < (k_multirate_islands ? 1u : parameters.least_substeps)) return true;
+    if (k_multirate_islands && !is_unlike(index)) return tick % ticks_apart == 0u;
+    uint its_substeps = index == index_in_hand ? substeps : cell_in_block(constraints, index, 5u).w;
+    if (!k_multirate_islands) return tick < its_substeps;
+    return substep_at(tick, index == index_in_hand ? traits : cell_in_block(constraints, index, 4u).w) < its_substeps;
 }
 
-// The worker's first manifold from this one on that has the sub-step.
-uint first_with(uint substep, uint index)
+// The worker's first manifold from this one on that has a sub-step.
+uint first_at(uint tick, uint index)
 {
-    while (index != k_none && is_done(index, substep))
+    while (index != k_none && !has_substep(index, tick))
         index = next_own(index);
     return index;
 }
@@ -67,50 +81,63 @@ void take_in_hand(uint index)
     if (index_in_hand != k_none) put_back_impulses(index_in_hand);
     take_constraint(index);
     index_in_hand = index;
+    bool is_like = substeps == like_substeps && (1u << slowness(traits)) == ticks_apart;
+    if (k_multirate_islands && !is_like && index < end_index) unlike_marks |= mark_of(index);
 }
 
-void pass_over_contacts(uint pass, uint substep)
+void pass_over_contacts(uint pass, uint tick)
 {
-    uint first = first_with(substep, first_index);
+    uint first = first_at(tick, first_index);
     uint index = first;    // the next manifold to pass over
     bool is_ready = false; // it is in hand, and its target is known
     PassTarget target;
+    bool few_are_ahead = false; // not all have seen what they have done
     uint begin = colour_offsets[0];
     uint all_end = colour_offsets[k_overflow_colour + 1u];
     for (uint colour = first_colour; begin < all_end; ++colour) {
         uint end = colour_offsets[colour]; // before the first colour there are none to pass over: all make ready
-        if (begin < end) wait_for_finish();
+        bool is_passed_over = begin < end && has_colour(colour - 1u, tick);
+        if (is_passed_over) wait_for_finish();
+        if (k_multirate_islands && is_passed_over && few_are_ahead && end > end_of_few) {
+            wait_for_workers();
+            few_are_ahead = false;
+        }
         while (!is_ready || index < end) {
             if (is_ready) {
-                pass_over_constraint(pass, index, target);
-                index = first_with(substep, next_own(index));
+                pass_over_constraint(pass, tick, index, target);
+                index = first_at(tick, next_own(index));
             }
             is_ready = true;
             take_in_hand(index == k_none ? first : index); // the next pass begins with the first
             if (pass != k_warm_start && index != k_none) target = target_of_pass(pass);
         }
-        if (begin == end) continue;
-        if (end < end_of_few)
+        begin = end;
+        if (!is_passed_over) continue;
+        few_are_ahead = end < end_of_few;
+        if (few_are_ahead)
             wait_for_few();
         else
             wait_for_workers();
-        finish_colour(colour - 1u, substep);
-        begin = end;
+        finish_colour(colour - 1u, tick);
     }
+    if (k_multirate_islands && few_are_ahead) wait_for_workers();
 }
 
-// `last`: the most sub-steps that a body has.
+// `last`: the ticks, as many as the most sub-steps that a body has.
 void solve_substeps(uint last)
 {
     find_own_manifolds();
-    for (uint substep = 0u; substep <= last; ++substep) {
-        integrate_own_bodies(substep);
+    like_substeps = is_multirate_solve() ? parameters.least_substeps : last;
+    ticks_apart = last / like_substeps;
+    unlike_marks = 0u;
+    for (uint tick = 0u; tick <= last; ++tick) {
+        integrate_own_bodies(tick);
         wait_for_workers();
-        bool is_end = substep == last;
-        uint pass = is_end ? k_relax : substep == 0u ? k_warm_start : k_solve;
-        uint passes = is_end ? parameters.relax : parameters.iterations + (substep == 0u ? 1u : 0u);
+        bool is_end = tick == last;
+        uint pass = is_end ? k_relax : tick == 0u ? k_warm_start : k_solve;
+        uint passes = is_end ? parameters.relax : parameters.iterations + (tick == 0u ? 1u : 0u);
         for (uint i = 0u; i < passes; ++i) {
-            pass_over_contacts(pass, is_end ? 0u : substep);
+            pass_over_contacts(pass, is_end ? 0u : tick);
             pass = min(pass + 1u, k_solve_again);
         }
     }

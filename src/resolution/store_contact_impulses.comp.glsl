@@ -10,6 +10,7 @@
 #include "resolution/body.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
@@ -48,5 +49,5 @@ void main()
                                         unpack(properties[c.body_b]).inverse_mass,
                                         told_loads[told + k_told_mass], told_loads[told + k_told_height], parameters);
     manifolds[c.manifold] = pack(finished);
-    if (substeps_of(finished.demand) != substeps_of(manifold.demand)) counters[k_counter_graph_due] = 1u; // of the next step
+    if (!asks_alike(finished.demand, manifold.demand)) counters[k_counter_graph_due] = 1u; // of the next step
 }

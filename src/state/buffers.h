@@ -66,6 +66,7 @@ namespace talus::engine {
     X(SortedManifoldKeys, sorted_manifold_keys, uint, "u", Scratch)                                                    \
     X(SortedManifoldOrder, sorted_manifold_order, uint, "u", Scratch)                                                  \
     X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
+    X(ColourTicks, colour_ticks, uint, "u", Result)                                                                    \
     X(LaunchedBodies, launched_bodies, uint, "u", Scratch)                                                             \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
@@ -74,7 +75,7 @@ namespace talus::engine {
       Result)                                                                                                          \
     X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
-    X(HubChanges, hub_changes, HubChange, "fffuffff", Result)                                                          \
+    X(HubChanges, hub_changes, HubChange, "fffufffu", Result)                                                          \
     X(Arrivals, arrivals, uint, "u", Scratch)                                                                          \
     /* finish */                                                                                                       \
     X(ContactImpulses, contact_impulses, ContactImpulse, "ffff", Result)                                               \

@@ -91,7 +91,8 @@ const uint k_counter_graph_was_due = 27u; // 1 where this step had to make its g
 // Of what launches solve, as above: manifolds with a colour or in the overflow set, and bodies that are no hubs.
 const uint k_counter_launched_manifolds = 28u;
 const uint k_counter_launched_bodies = 29u;
-const uint k_counter_words = 30u;
+const uint k_counter_multirate_islands = 30u; // that launches solve
+const uint k_counter_words = 31u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -138,6 +139,7 @@ const uint k_island_bodies = 1024u; // body slots of a world that is solved isla
 const uint k_group_window = 60u;
 const uint k_most_grouped = 196u; // bodies of an island that a group can solve
 const uint k_group_room = k_group_window + k_most_grouped; // bodies
+const uint k_least_multirate = 131072u; // bodies of an island whose contacts may differ in sub-steps
 const uint k_most_single = k_island_bodies; // bodies of an island that has a group of its own
 
 // Words of a body in ToldLoads, see resolution/load.shared.glsl.

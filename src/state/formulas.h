@@ -30,6 +30,8 @@ namespace talus::engine {
 #include "resolution/load.shared.glsl"
 #include "resolution/softness.shared.glsl"
 
+#include "resolution/multirate.shared.glsl"
+
 #include "narrow_phase/contact_geometry.shared.glsl"
 
 #include "narrow_phase/box_axes.shared.glsl"

@@ -98,8 +98,8 @@ struct BodyInertia {
     float xy;
     float xz;
     float yz;
-    uint traits;   // k_trait_*
-    uint substeps; // sub-steps of its island
+    uint traits;   // k_trait_*, and the rate: see resolution/multirate.shared.glsl
+    uint substeps;
 };
 
 // ---- contacts ----
@@ -152,7 +152,7 @@ struct ContactConstraint {
     vec3 centre_b; // m, from B's centre
     float inverse_masses; // 1/kg, the sum of both
     vec3 gap;             // m, from A's middle of the points to B's, at the start of the step
-    uint traits;          // k_trait_* of A, and of B four bits higher; k_trait_whole_hub
+    uint traits;          // k_trait_* of A, and of B four bits higher; k_trait_whole_hub; the rate
     vec3 friction_mass;   // kg, kg, kg m^2: along the frame's x and y, and about the normal
     uint substeps;
     vec4 x; // m, from the middle of the points, in the contact's frame
@@ -175,7 +175,7 @@ struct HubChange {
     vec3 linear; // m/s
     uint body;
     vec3 angular; // rad/s
-    float reserved;
+    uint tick;    // of the pass
 };
 
 // 16 bytes, one a pair.

@@ -38,6 +38,8 @@ using engine::Parameters; // the same for all lanes
 #include "resolution/load.shared.glsl"
 #include "resolution/softness.shared.glsl"
 
+#include "resolution/multirate.shared.glsl"
+
 #include "resolution/body.shared.glsl"
 #include "resolution/hub.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// All sub-steps of what no work group solves alone, in one launch: its groups stay until the end and wait for each other
+// after every colour. That costs less than a launch does, the code is fetched once, and where there are no more manifolds
+// than invocations each is loaded once. For worlds in which nothing bounces.
+// Before this file the kernel defines k_multirate_islands, as for contact_passes.glsl.
+// args.x: 1 to count how many groups can run at a time instead.
+// Reads: Counters, ColourOffsets, ColourTicks, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
+// Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
+// HubChanges, Arrivals.
+// Needs: a barrier after prepare_contacts; no more groups than can run at a time; arrivals[0] is 0.
+// Overflow: none; does nothing after a step that did not fit.
+#include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
+#include "resolution/body.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
+#include "resolution/softness.shared.glsl"
+#include "resolution/multirate.shared.glsl"
+#include "resolution/manifold_rows.shared.glsl"
+#include "resolution/contact.shared.glsl"
+#include "resolution/hub.shared.glsl"
+#include "resolution/hit.shared.glsl"
+
+layout(local_size_x = 384) in; // fewer leave waits unfilled; more have too few registers
+
+layout(std430) readonly buffer ColourOffsets { uint stored_offsets[]; };
+layout(std430) buffer Counters { uint counters[]; };
+layout(std430) readonly buffer ColourTicks { uint colour_ticks[]; };
+layout(std430) readonly buffer Hubs { uint hubs[]; };
+layout(std430) readonly buffer LaunchedBodies { uint launched_bodies[]; };
+layout(std430) coherent buffer HubChanges { HubChange hub_changes[]; };
+layout(std430) coherent buffer Velocities { BodyVelocityCells velocities[]; };
+
+// As in ColourOffsets: a load for each colour that is not in use took as long as the passes did, where there are hubs.
+shared uint colour_offsets[k_max_colours + 2u];
+shared uint ticks_between[k_max_colours + 1u]; // in which some manifold of the colour may have a sub-step
+
+uint slot_of(uint body) { return body; }
+void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
+
+// A coherent block's member is no argument: NVIDIA's compiler refuses it.
+BodyVelocity load_velocity(uint body)
+{
+    BodyVelocityCells velocity = velocities[body];
+    return unpack(velocity);
+}
+
+#include "resolution/stored_deltas.glsl"
+
+BodyDelta load_delta(uint body) { return load_stored_delta(body); }
+void store_delta(uint body, BodyDelta delta) { store_stored_delta(body, delta); }
+
+const bool k_bounces = false;
+const bool k_hubs = true;
+
+void put_change(uint index, HubChange change)
+{
+    hub_changes[index - colour_offsets[k_first_hub_colour]] = change;
+}
+
+// As of load_velocity.
+HubChange load_change(uint i)
+{
+    HubChange change = hub_changes[i];
+    return change;
+}
+
+#include "resolution/contact_passes.glsl"
+#include "resolution/body_passes.glsl"
+#include "resolution/move_hubs.glsl"
+uint meeting_groups() { return gl_NumWorkGroups.x; }
+#include "primitives/grid_barrier.glsl"
+
+// Neighbours in the order of manifolds are 32 by 32 in different groups, as there are often fewer of a colour than
+// invocations: all multiprocessors are to have some.
+const uint k_neighbours = 32u;
+
+// Of the workers of `groups` groups, if this one's has the number `group`.
+uint worker_among(uint group, uint groups)
+{
+    uint me = gl_LocalInvocationID.x;
+    return (me / k_neighbours * groups + group) * k_neighbours + me % k_neighbours;
+}
+
+uint worker() { return worker_among(gl_WorkGroupID.x, gl_NumWorkGroups.x); }
+
+// The first colours are those that only a few manifolds have needed. The first group solves these alone while the others
+// make ready for their first: a wait among all groups takes longer than such a colour does.
+const uint k_few = 128u;           // in all these colours together, one for an invocation; with more it is slower
+const uint k_beyond = 0x7fffffffu; // all manifolds
+
+uvec3 own_manifolds(uint begin)
+{
+    uint groups = gl_NumWorkGroups.x;
+    uint end_of_few = begin;
+    for (uint colour = 0u; colour <= k_first_hub_colour && groups > 1u; ++colour) {
+        if (colour_offsets[colour] <= begin + k_few) end_of_few = colour_offsets[colour];
+    }
+    if (end_of_few == begin) return uvec3(begin + worker(), groups * gl_WorkGroupSize.x, begin);
+    if (gl_WorkGroupID.x == 0u) {
+        uint index = begin + gl_LocalInvocationID.x;
+        return uvec3(index < end_of_few ? index : k_beyond, k_beyond, end_of_few);
+    }
+    uint index = end_of_few + worker_among(gl_WorkGroupID.x - 1u, groups - 1u);
+    return uvec3(index, (groups - 1u) * gl_WorkGroupSize.x, end_of_few);
+}
+
+// Groups are adding up what contacts have done to hubs: nobody else may read a hub's velocity before the next wait.
+bool hubs_move = false;
+
+void wait_for_workers()
+{
+    wait_for_all_groups();
+    hubs_move = false;
+}
+
+void wait_for_few()
+{
+    if (gl_WorkGroupID.x == 0u) {
+        memoryBarrierBuffer();
+        barrier();
+        memoryBarrierBuffer(); // barrier() orders shared memory only
+    }
+}
+
+void wait_for_finish()
+{
+    if (hubs_move) wait_for_workers();
+}
+
+bool has_colour(uint colour, uint tick) { return !k_multirate_islands || tick % ticks_between[colour] == 0u; }
+
+void finish_colour(uint colour, uint tick)
+{
+    if (colour < k_first_hub_colour || colour >= k_max_colours) return;
+    for (uint i = gl_WorkGroupID.x; i < counters[k_counter_hub_count]; i += gl_NumWorkGroups.x)
+        move_hub_by_colour(hubs[i], colour, tick);
+    hubs_move = true;
+}
+
+void integrate_own_bodies(uint tick);
+
+#include "resolution/solve_substeps.glsl"
+
+uint fast_marks = 0u; // bits for its bodies in turns: one of them may have more sub-steps than most
+
+void integrate_own_bodies(uint tick)
+{
+    // A hub is its keeper's, which has moved it and need not wait to see that.
+    uint hub = gl_LocalInvocationID.x == k_hub_keeper ? gl_WorkGroupID.x : counters[k_counter_hub_count];
+    // Where most bodies are launched, to look at all of them is quicker than to ask a list which they are.
+    uint listed = counters[k_counter_launched_bodies];
+    bool looks_at_all = 2u * listed > parameters.body_count;
+    uint end = looks_at_all ? parameters.body_count : listed;
+    uint next = worker();
+    uint mark = 1u;
+    while (hub < counters[k_counter_hub_count] || next < end) {
+        uint body;
+        bool is_own;
+        if (hub < counters[k_counter_hub_count]) {
+            body = hubs[hub];
+            is_own = is_launched(unpack(inertias[body]));
+            hub += gl_NumWorkGroups.x;
+        } else {
+            uint place = next;
+            uint its_mark = mark;
+            next += gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+            mark = mark << 1u | mark >> 31u;
+            if (k_multirate_islands && tick % ticks_apart != 0u && (fast_marks & its_mark) == 0u) continue;
+            body = looks_at_all ? place : launched_bodies[place];
+            BodyInertia inertia = unpack(inertias[body]);
+            is_own = is_in_launched_bodies(inertia);
+            if (k_multirate_islands && (1u << slowness(inertia.traits)) != ticks_apart) fast_marks |= its_mark;
+        }
+        if (is_own) integrate_body(body, tick);
+    }
+}
+
+void main()
+{
+    if (args.x == 1u) {
+        count_resident_groups();
+        return;
+    }
+    if (counters[k_counter_did_not_fit] != 0u) return;
+    for (uint i = gl_LocalInvocationID.x; i < k_max_colours + 2u; i += gl_WorkGroupSize.x)
+        colour_offsets[i] = stored_offsets[i];
+    uint ticks = max(counters[k_counter_launched_substeps], parameters.least_substeps);
+    for (uint i = gl_LocalInvocationID.x; k_multirate_islands && i <= k_max_colours; i += gl_WorkGroupSize.x)
+        ticks_between[i] = is_multirate_solve() ? ticks / max(colour_ticks[i], parameters.least_substeps) : 1u;
+    barrier();
+    solve_substeps(ticks);
+}

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// Islands whose contacts differ in sub-steps (resolution/multirate.shared.glsl). They have tens of thousands of bodies
+// where nobody asks for less, so that these tests do.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "state/formulas.h"
+#include "tests/bodies.h"
+#include "tests/devices.h"
+#include "tests/engine_run.h"
+
+namespace talus::tests {
+namespace {
+
+using engine::BufferId;
+using engine::uint;
+
+Settings eight_at_most() {
+    Settings settings;
+    settings.substeps = 2; // renderers in software end long loops
+    settings.max_substeps = 8;
+    return settings;
+}
+
+/// After a step: lets the contacts ask for 2, 4 or 8 sub-steps, by turns, as those of low columns.
+void ask_for_different_substeps(EngineRun& run) {
+    std::vector<engine::Manifold> manifolds = run.manifolds();
+    for (std::size_t i = 0; i < manifolds.size(); ++i)
+        manifolds[i].demand = engine::make_demand(i % 7 == 0 ? 8 : i % 3 == 0 ? 4 : 2, 0, 1);
+    run.simulation.write(BufferId::OldManifolds, 0, std::span<const engine::Manifold>(manifolds));
+    const uint due = 1;
+    run.simulation.write(BufferId::Counters, engine::k_counter_graph_due, std::span(&due, 1));
+}
+
+/// A wall with more bodies than a work group solves.
+std::vector<BodyDefinition> long_wall() {
+    std::vector<BodyDefinition> bodies{ground()};
+    for (int row = 0; row < 6; ++row)
+        for (int i = 0; i < 190; ++i)
+            bodies.push_back(box_at({1.001f * static_cast<float>(i) + 0.5f * static_cast<float>(row % 2),
+                                     0.5f + static_cast<float>(row), 0.0f}));
+    return bodies;
+}
+
+struct Contacts {
+    uint slow = 0, fast = 0,
+         beside_faster = 0; ///< beside_faster: one of the bodies has more sub-steps than the contact
+};
+
+Contacts count_contacts(const EngineRun& run) {
+    const auto constraints =
+        run.read<engine::ContactConstraint>(BufferId::Constraints, run.counter(engine::k_counter_manifold_count));
+    const auto inertias = run.read<engine::BodyInertia>(BufferId::Inertias, run.table.slot_count());
+    Contacts contacts;
+    for (const engine::ContactConstraint& c : constraints) {
+        ++(c.substeps == 2 ? contacts.slow : contacts.fast);
+        const bool is_faster = std::max(inertias[c.body_a].substeps, inertias[c.body_b].substeps) > c.substeps;
+        contacts.beside_faster += engine::is_multirate(c.traits) && is_faster ? 1 : 0;
+    }
+    return contacts;
+}
+
+TEST(Multirate, numbers_are_doubles_of_the_least) {
+    Settings settings;
+    settings.substeps = 5;
+    settings.max_substeps = 32;
+    const engine::StepPlan plan{.least_substeps = 5, .most_substeps = 32};
+    const engine::Parameters p = engine::make_parameters(settings, plan);
+    EXPECT_EQ(engine::doubled_substeps(0, p), 5u);
+    EXPECT_EQ(engine::doubled_substeps(5, p), 5u);
+    EXPECT_EQ(engine::doubled_substeps(6, p), 10u);
+    EXPECT_EQ(engine::doubled_substeps(11, p), 20u);
+    EXPECT_EQ(engine::doubled_substeps(32, p), 20u) << "40 would be more than the most";
+}
+
+TEST(Multirate, sub_steps_begin_evenly) {
+    for (const uint substeps : {8u, 16u, 32u}) {
+        const uint traits = engine::rate_trait(32, substeps) | engine::k_trait_movable;
+        EXPECT_TRUE(engine::is_multirate(traits));
+        EXPECT_EQ(engine::ticks_of(substeps, traits), 32u);
+        for (uint tick = 0; tick <= 32; ++tick) {
+            const uint apart = 32 / substeps;
+            EXPECT_EQ(engine::substep_at(tick, traits), tick % apart == 0 ? tick / apart : engine::k_none) << tick;
+        }
+    }
+    EXPECT_FALSE(engine::is_multirate(engine::k_trait_movable | engine::k_trait_whole_hub));
+    EXPECT_EQ(engine::substep_at(7, engine::k_trait_movable), 7u) << "of what is not multirate each tick is one";
+}
+
+TEST(Multirate, a_change_is_spread_over_the_sub_steps_of_a_faster_body) {
+    const uint slow = engine::rate_trait(32, 8), fast = engine::rate_trait(32, 32);
+    EXPECT_EQ(engine::part_of_change(slow, fast), 0.25f);
+    EXPECT_EQ(engine::part_of_change(slow, slow), 1.0f);
+    EXPECT_EQ(engine::part_of_change(fast, 0), 1.0f) << "of what cannot be pushed";
+    engine::BodyVelocity before{}, after{};
+    before.linear = {1.0f, 2.0f, 3.0f};
+    after.linear = {5.0f, 2.0f, 3.3f};
+    EXPECT_EQ(engine::change_in_part(before, after, 0.25f).linear.x, 2.0f);
+    EXPECT_EQ(engine::change_in_part(before, after, 1.0f).linear, after.linear) << "to the last bit";
+}
+
+TEST(Multirate, what_stands_on_a_corner_asks_for_more) {
+    EXPECT_GT(engine::needed_substeps(60.0f, 4.0f, 1, false), 1.9f * engine::needed_substeps(60.0f, 1.0f, 1, false));
+    const engine::vec4 of_face(125.0f), of_corner(125.0f, 0.0f, 0.0f, 0.0f); // kg, between two boxes of 1 t
+    EXPECT_NEAR(engine::yielding_of({50.0f, 50.0f, 50.0f, 50.0f}, of_face, 1e-3f), 1.0f, 1e-5f);
+    EXPECT_NEAR(engine::yielding_of({200.0f, 0.0f, 0.0f, 0.0f}, of_face, 1e-3f), 4.0f, 1e-5f);
+    EXPECT_NEAR(engine::yielding_of({200.0f, 0.0f, 0.0f, 0.0f}, of_corner, 1e-3f), 4.0f, 1e-5f);
+    EXPECT_EQ(engine::yielding_of(engine::vec4(0.0f), of_face, 1e-3f), 1.0f) << "it carries nothing";
+}
+
+class MultirateIslands : public OnDevice {};
+
+TEST_P(MultirateIslands, have_the_same_bits_on_every_device_and_path) {
+    Settings hubs = eight_at_most();
+    hubs.hub_contacts = 32;
+    for (const auto& [bodies, settings] :
+         {std::pair{long_wall(), eight_at_most()}, std::pair{table_on_legs(33, 3), hubs}}) {
+        WorldOptions serial = options_on(DeviceKind::Cpu);
+        serial.threads = 1;
+        EngineRun one(options_on(GetParam()), bodies, settings), many(options_on(GetParam()), bodies, settings);
+        EngineRun expected(serial, bodies, settings);
+        for (EngineRun* each : {&one, &many, &expected}) {
+            each->simulation.reserve_pairs(8192);
+            each->least_multirate = 1025;
+            each->step(); // finds out how much room the hubs need
+            ask_for_different_substeps(*each);
+        }
+        for (int i = 0; i < 3; ++i) {
+            one.step_persistently(i % 2 == 1);
+            many.step_in_many_launches();
+            expected.step_in_many_launches();
+            ASSERT_TRUE(one.motion() == many.motion()) << "step " << i;
+            ASSERT_TRUE(one.motion() == expected.motion()) << "step " << i;
+        }
+        const Contacts contacts = count_contacts(one);
+        EXPECT_GT(contacts.slow, 500u);
+        EXPECT_GT(contacts.fast, 200u);
+        EXPECT_GT(contacts.beside_faster, 200u);
+    }
+}
+
+TALUS_ON_EVERY_DEVICE(MultirateIslands);
+
+TEST(Multirate, a_tall_column_has_one_number_throughout) {
+    EngineRun run(options_on(DeviceKind::Cpu), long_wall(), eight_at_most());
+    run.simulation.reserve_pairs(8192);
+    run.least_multirate = 1025;
+    run.step_in_many_launches();
+    ask_for_different_substeps(run);
+    std::vector<engine::Manifold> manifolds = run.manifolds();
+    for (engine::Manifold& manifold : manifolds) {
+        if (manifold.point_count == 0 || manifold.body_a == 0) continue;
+        manifold.demand = engine::make_demand(2, 0, engine::k_tall_height);
+        break;
+    }
+    run.simulation.write(BufferId::OldManifolds, 0, std::span<const engine::Manifold>(manifolds));
+    run.step_in_many_launches();
+    EXPECT_EQ(count_contacts(run).slow, 0u);
+    EXPECT_EQ(count_contacts(run).beside_faster, 0u);
+    EXPECT_EQ(run.counter(engine::k_counter_graph_due), 1u) << "it is no tall column after all";
+    run.step_in_many_launches();
+    EXPECT_GT(count_contacts(run).slow, 500u);
+    EXPECT_EQ(run.counter(engine::k_counter_graph_due), 0u);
+}
+
+/// The wall in the air, its bodies thrown together: what contacts do to it has to add up to nothing.
+TEST(Multirate, momentum_is_kept) {
+    std::vector<BodyDefinition> bodies = long_wall();
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+        bodies[i].pose.position.y += 50.0f;
+        bodies[i].mass = i % 5 == 0 ? 4000.0f : 1000.0f;
+        bodies[i].velocity.linear = {0.3f * std::sin(static_cast<float>(i)), 0.2f * std::cos(static_cast<float>(7 * i)),
+                                     0.0f};
+    }
+    EngineRun run(options_on(DeviceKind::Cpu), bodies, eight_at_most());
+    run.simulation.reserve_pairs(8192);
+    run.least_multirate = 1000;
+    const auto momentum = [&] {
+        double x = 0.0, y = 0.0, scale = 0.0;
+        const auto velocities = run.read<engine::BodyVelocity>(BufferId::Velocities, bodies.size());
+        for (std::size_t i = 1; i < bodies.size(); ++i) {
+            x += *bodies[i].mass * velocities[i].linear.x;
+            y += *bodies[i].mass * velocities[i].linear.y;
+            scale += *bodies[i].mass * std::abs(velocities[i].linear.x);
+        }
+        return std::array{x, y, scale};
+    };
+    run.step_in_many_launches();
+    ask_for_different_substeps(run);
+    double mass = 0.0;
+    for (std::size_t i = 1; i < bodies.size(); ++i)
+        mass += *bodies[i].mass;
+    const auto before = momentum();
+    for (int i = 0; i < 5; ++i) {
+        ask_for_different_substeps(run);
+        run.step_in_many_launches();
+        EXPECT_GT(count_contacts(run).beside_faster, 100u);
+    }
+    const auto after = momentum();
+    EXPECT_NEAR(after[0], before[0], 1e-5 * before[2]);
+    EXPECT_NEAR(after[1], before[1] - 5.0 / 60.0 * 9.81 * mass, 1e-5 * 9.81 / 12.0 * mass);
+}
+
+} // namespace
+} // namespace talus::tests
