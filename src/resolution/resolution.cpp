@@ -90,6 +90,10 @@ static void pass_over_contacts(Device& device, const StepPlan& plan, ContactPass
     if (plan.overflow) launch(solve_contacts, k_overflow_colour, k_dispatch_overflow);
 }
 
+const Kernel& persistent_solver(const StepPlan& plan) {
+    return plan.may_be_multirate() ? solve_multirate : solve_persistent;
+}
+
 void solve(Device& device, const StepPlan& plan) {
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
     const Kernel& persistent = persistent_solver(plan);

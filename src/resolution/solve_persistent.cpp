@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// CPU twin of solve_persistent.comp.glsl and solve_multirate.comp.glsl: the launches that it stands for.
+// CPU twin of solve_persistent.comp.glsl: the launches that it stands for.
 #include <array>
 
 #include "resolution/contact_passes.h"
 #include "resolution/resolution.h"
 #include "resolution/solve_contacts.h"
-#include "step.h"
+#include "resolution/solve_persistent.h"
 
 namespace talus::engine {
 
-static void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
+void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
     if (state.counters[k_counter_did_not_fit] != 0) return;
     const Parameters& p = state.parameters;
     const auto over_contacts = [&](ContactPass pass, uint tick) {
@@ -27,10 +27,5 @@ static void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
 }
 
 const Kernel solve_persistent{"resolution/solve_persistent", solve_persistent_on_cpu, 384};
-const Kernel solve_multirate{"resolution/solve_multirate", solve_persistent_on_cpu, 384};
-
-const Kernel& persistent_solver(const StepPlan& plan) {
-    return plan.may_be_multirate() ? solve_multirate : solve_persistent;
-}
 
 } // namespace talus::engine
