@@ -2,6 +2,8 @@
 // One step of the world.
 #pragma once
 
+#include <bit>
+
 #include "body_changes.h"
 #include "device/device.h"
 
@@ -43,7 +45,7 @@ struct StepPlan {
     uint persistent_groups = 0; ///< that solve all else in one launch; 0: a launch for each colour and pass
     uint least_substeps = 0;
     uint most_substeps = 0;
-    uint substep_capacity = 1; ///< sub-steps that get launches: some, until it is known that none are needed
+    uint substep_capacity = 1; ///< sub-steps, or ticks, that get launches: some, until it is known that none are needed
     uint iterations = 0;
     bool relax = false;
     bool bounces = false;  ///< some body has a restitution above 0
@@ -56,10 +58,15 @@ struct StepPlan {
     bool has_islands() const { return small || !one_island; }
     /// In a large world; also where no more is wanted of them than whether they sleep.
     bool measures_islands() const { return !small && (!one_island || sleeping); }
-    /// Bodies from which on an island is multirate; k_none: none is. A kinematic body may touch several islands, and
-    /// moves in one number of sub-steps; what bounces has hits, which are solved at once.
-    uint multirate_from() const { return small || one_island || bounces ? k_none : least_multirate; }
-    bool may_be_multirate() const { return body_count >= multirate_from(); }
+    /// A kinematic body may touch several islands, and moves in one number of sub-steps; what bounces has hits, which
+    /// are solved at once. Numbers of sub-steps are doubles of the least one, up to the most.
+    bool may_be_multirate() const {
+        const bool most_is_double =
+            most_substeps % least_substeps == 0 && std::has_single_bit(most_substeps / least_substeps);
+        return !small && !one_island && !bounces && most_is_double && body_count >= least_multirate;
+    }
+    /// Bodies from which on an island is multirate, where a hub counts as 1,025; k_none: none is.
+    uint multirate_from() const { return may_be_multirate() ? least_multirate : k_none; }
     bool has_groups() const { return in_groups && !small; }
     bool needs_launches() const { return !(in_groups && small); }
     /// One persistent launch may make all passes, if the device has groups for it. All others wait there for the one

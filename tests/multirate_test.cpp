@@ -76,7 +76,7 @@ TEST(Multirate, numbers_are_doubles_of_the_least) {
 
 TEST(Multirate, sub_steps_begin_evenly) {
     for (const uint substeps : {8u, 16u, 32u}) {
-        const uint traits = engine::rate_trait(32, substeps) | engine::k_trait_movable;
+        const uint traits = engine::slowness_trait(32, substeps) | engine::k_trait_movable;
         EXPECT_TRUE(engine::is_multirate(traits));
         EXPECT_EQ(engine::ticks_of(substeps, traits), 32u);
         for (uint tick = 0; tick <= 32; ++tick) {
@@ -89,7 +89,7 @@ TEST(Multirate, sub_steps_begin_evenly) {
 }
 
 TEST(Multirate, a_change_is_spread_over_the_sub_steps_of_a_faster_body) {
-    const uint slow = engine::rate_trait(32, 8), fast = engine::rate_trait(32, 32);
+    const uint slow = engine::slowness_trait(32, 8), fast = engine::slowness_trait(32, 32);
     EXPECT_EQ(engine::part_of_change(slow, fast), 0.25f);
     EXPECT_EQ(engine::part_of_change(slow, slow), 1.0f);
     EXPECT_EQ(engine::part_of_change(fast, 0), 1.0f) << "of what cannot be pushed";
@@ -162,6 +162,28 @@ TEST(Multirate, a_tall_column_has_one_number_throughout) {
     run.step_in_many_launches();
     EXPECT_GT(count_contacts(run).slow, 500u);
     EXPECT_EQ(run.counter(engine::k_counter_graph_due), 0u);
+}
+
+TEST(Multirate, where_the_most_is_no_double_of_the_least_islands_have_one_number) {
+    std::vector<BodyDefinition> bodies = long_wall();
+    for (std::size_t i = 1; i < bodies.size(); ++i)
+        bodies[i].pose.position.y += 50.0f;
+    for (const uint least : {2u, 3u, 5u, 8u}) {
+        SCOPED_TRACE(least);
+        Settings settings = eight_at_most();
+        settings.substeps = least;
+        EngineRun run(options_on(DeviceKind::Cpu), bodies, settings);
+        run.simulation.reserve_pairs(8192);
+        run.least_multirate = 1025;
+        run.step_in_many_launches();
+        ask_for_different_substeps(run);
+        run.step_persistently(false);
+        const bool is_double = 8 % least == 0;
+        EXPECT_EQ(run.counter(engine::k_counter_multirate_islands), is_double ? 1u : 0u);
+        const auto velocities = run.read<engine::BodyVelocity>(BufferId::Velocities, bodies.size());
+        for (std::size_t i = 1; i < bodies.size(); ++i)
+            ASSERT_NEAR(velocities[i].linear.y, -2.0f / 60.0f * 9.81f, 0.02f) << "they fall together; body " << i;
+    }
 }
 
 /// The wall in the air, its bodies thrown together: what contacts do to it has to add up to nothing.

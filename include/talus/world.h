@@ -21,7 +21,7 @@ struct StepReport {
     std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors
     std::uint32_t contacts = 0;           ///< contact points
     std::uint32_t colours = 0;            ///< batches of the constraint graph, from the ground's on, which may be empty
-    std::uint32_t substeps = 0;           ///< most that an island had, or will have when it wakes
+    std::uint32_t substeps = 0;           ///< most that a contact asked for
     std::uint32_t overflow_manifolds = 0; ///< without a colour, solved one at a time
     std::uint32_t hubs = 0;            ///< bodies with so many contacts that most are solved with a share of their mass
     std::uint32_t frozen_bodies = 0;   ///< bodies whose velocity became non-finite, in all steps so far

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a sub-step does to one body. Before this file the kernel defines slot_of, load_velocity, store_velocity and
-// load_delta and k_multirate_islands, as for contact_passes.glsl, and void store_delta(uint body, BodyDelta delta); and it declares Properties,
-// Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
+// What a sub-step does to one body. Before this file the kernel defines slot_of, load_velocity, store_velocity, load_delta
+// and k_multirate_islands, as for contact_passes.glsl, and void store_delta(uint body, BodyDelta delta); and it declares
+// Properties, Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };

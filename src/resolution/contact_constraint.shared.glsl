@@ -37,7 +37,7 @@ inline ContactRate find_rate(uint demand, BodyInertia a, BodyInertia b, Paramete
     uint slower = min(choose(pushes_a, a.substeps, ticks), choose(pushes_b, b.substeps, ticks));
     uint own = min(doubled_substeps(demand, p), slower);
     rate.substeps = choose_active(multirate, own, rate.substeps);
-    rate.trait = choose_active(multirate, rate_trait(ticks, own), 0u);
+    rate.trait = choose_active(multirate, slowness_trait(ticks, own), 0u);
     return rate;
 }
 

@@ -37,7 +37,7 @@ uint slot_b;
 uint traits;
 uint substeps;
 float hub_share;
-float part_a; // see change_in_part
+float part_a; // see part_of_change
 float part_b;
 float load_speed;
 vec3 gap_at_start;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: its island's sub-steps and group, and its place among the bodies in the order of islands.
-// An island that sleeps has neither, and no sub-steps.
-// args.x: 1 where work groups solve islands. args.y: 1 where also those do that solve a single one. args.z: the
-// bodies from which on an island is multirate; k_none: none is.
+// One invocation is a body slot: its island's group and sub-steps, in a multirate island its own, and its place among the
+// bodies in the order of islands. An island that sleeps has neither, and no sub-steps.
+// args.x: 1 where work groups solve islands. args.y: 1 where also those do that solve a single one. args.z: the size from
+// which on an island is multirate; k_none: none is.
 // Reads: Islands, IslandSizes, IslandStarts (scanned).
 // Writes: Substeps, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
 // first; nothing that is made from it does.
@@ -52,6 +52,6 @@ void main()
         substeps[body] = of_island;
     }
     if (body == island && is_single(size)) atomicAdd(counters[k_counter_singles], 1u);
-    if (group == k_launched && body == island)
-        atomicMax(counters[k_counter_launched_substeps], args.z != k_none ? doubled_substeps(of_island, parameters) : of_island);
+    if (args.z != k_none) of_island = doubled_substeps(of_island, parameters);
+    if (group == k_launched && body == island) atomicMax(counters[k_counter_launched_substeps], of_island);
 }

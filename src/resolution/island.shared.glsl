@@ -16,7 +16,10 @@ const uint k_tall = 0x40000000u; // in IslandSizes, beside a count of bodies: th
 inline uint island_size(uint word) { return word & (k_tall - 1u); }
 
 // Whether each contact has sub-steps of its own. A tall column has to be as stiff above as it is at its foot.
-inline bool is_multirate_island(uint word, uint least_size) { return island_size(word) >= least_size && (word & k_tall) == 0u; }
+inline bool is_multirate_island(uint word, uint least_size)
+{
+    return island_size(word) >= least_size && (word & k_tall) == 0u;
+}
 
 const uint k_awake = 0x80000000u; // in IslandFill, beside a count of bodies
 

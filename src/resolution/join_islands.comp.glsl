@@ -3,7 +3,8 @@
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
 // sub-steps of the manifold that asks for most. What contacts cannot push, but is restless, keeps awake what it touches.
 // Reads: Counters, Manifolds.
-// Writes: Islands, Substeps, IslandFill; IslandSizes, that a column is tall. Which body hangs below which depends on who comes first; the roots do not.
+// Writes: Islands, Substeps, IslandFill; IslandSizes, that a column is tall.
+// Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_islands.
 // Overflow: none.
 #include "state/math.shared.glsl"

@@ -252,9 +252,8 @@ inline Ticks join_ticks(Ticks ticks, std::uint32_t substeps, std::uint32_t trait
     return {end > ticks.end ? end : ticks.end, slowness < ticks.slowness ? slowness : ticks.slowness};
 }
 
-/// `before_end`: whether the tick is not beyond the last that counts.
-inline bool has_any(Ticks ticks, std::uint32_t tick, bool before_end) {
-    return before_end && (tick & ((1u << ticks.slowness) - 1u)) == 0;
+inline bool has_any(Ticks ticks, std::uint32_t tick, std::uint32_t end) {
+    return tick < end && (tick & ((1u << ticks.slowness) - 1u)) == 0;
 }
 
 struct Places {
@@ -379,7 +378,7 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
 /// As pass_over_constraint in contact_passes.h.
 inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, std::uint32_t tick, void* memory) {
     ConstraintBatch& batch = *static_cast<ConstraintBatch*>(memory);
-    if (!has_any(batch.ticks, tick, tick < batch.ticks.end)) return 0;
+    if (!has_any(batch.ticks, tick, batch.ticks.end)) return 0;
     const Places& places = batch.places;
     if (batch.stale != 0)
         batch.impulses = choose(mask_of(batch.stale), impulses_at(state, places.constraint), batch.impulses);
@@ -465,7 +464,7 @@ inline void take_bodies(const CpuState& state, const std::uint32_t* indices, std
 /// As integrate_body in body_passes.h.
 inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t tick, void* memory) {
     BodyBatch& batch = *static_cast<BodyBatch*>(memory);
-    if (batch.lanes == 0 || !has_any(batch.ticks, tick, tick <= batch.ticks.end)) return 0;
+    if (batch.lanes == 0 || !has_any(batch.ticks, tick, batch.ticks.end + 1)) return 0;
     const ULanes substep = substep_at(tick, batch.inertia.traits);
     const std::uint32_t active = batch.lanes & bits_of(substep <= batch.substeps);
     const std::uint32_t going_on = active & bits_of(substep < batch.substeps);

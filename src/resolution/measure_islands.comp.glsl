@@ -2,7 +2,7 @@
 // One invocation is a body slot: names its island, and adds itself to it. A hub counts as more than a group can solve,
 // as it needs launches of its own.
 // Reads: BodyColours.
-// Writes: Islands; of the island IslandSizes, the same into IslandStarts, and Substeps; in IslandFill, that it is awake.
+// Writes: Islands; of the island IslandSizes, IslandStarts (its bodies) and Substeps; in IslandFill, that it is awake.
 // Needs: barriers after join_islands and assign_colours.
 // Overflow: none.
 #include "resolution/colouring.shared.glsl"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Multirate islands: sub-steps where they are needed. docs/solver.md has the reasons.
 //
-// In an island that is too large for a work group each contact has the sub-steps that it asks for, and a body those of its
-// contact with most. Their numbers are the least one, doubled some times, so that each sub-step of few begins with one of
+// In a very large island without tall columns each contact has the sub-steps that it asks for, and a body those of its contact
+// with most. Their numbers are the least one, doubled some times, so that each sub-step of few begins with one of
 // many. A step has as many ticks as the most sub-steps: of what is 2^r times slower every 2^r-th begins a sub-step. What a
 // contact changes about a faster body is spread evenly over that body's sub-steps until the contact's next one.
 
 const uint k_multirate = 0x10000u; // in Substeps, beside a number: the body's island is multirate
-const uint k_rate_shift = 16u;     // in traits, from this bit on: 1 + r; 0 where the island is not multirate
+const uint k_slowness_shift = 16u; // in traits, from this bit on: 1 + r; 0 where the island is not multirate
 const uint k_most_doublings = 5u;
 
 inline uint number_of_substeps(uint word) { return word & (k_multirate - 1u); }
@@ -23,18 +23,18 @@ inline uint doubled_substeps(uint demand, Parameters p)
     return substeps;
 }
 
-inline bool is_multirate(uint traits) { return (traits >> k_rate_shift) != 0u; }
+inline bool is_multirate(uint traits) { return (traits >> k_slowness_shift) != 0u; }
 
 // r: a tick in 2^r begins a sub-step.
-inline uint slowness(uint traits) { return max(traits >> k_rate_shift, 1u) - 1u; }
+inline uint slowness(uint traits) { return max(traits >> k_slowness_shift, 1u) - 1u; }
 
 // What says so, of `substeps` in a step of `ticks`.
-inline uint rate_trait(uint ticks, uint substeps)
+inline uint slowness_trait(uint ticks, uint substeps)
 {
-    uint rate = 1u;
+    uint trait = 1u;
     for (uint i = 0u; any_lane(i < k_most_doublings); i += 1u)
-        rate += choose((substeps << i) < ticks, 1u, 0u);
-    return rate << k_rate_shift;
+        trait += choose((substeps << i) < ticks, 1u, 0u);
+    return trait << k_slowness_shift;
 }
 
 inline uint ticks_of(uint substeps, uint traits) { return substeps << slowness(traits); }

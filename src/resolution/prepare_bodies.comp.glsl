@@ -56,7 +56,7 @@ void main()
     BodyInertia inertia = world_inertia(pose.rotation, unpack(properties[body]).inverse_inertia,
                                         traits_of_body(unpack(shapes[body]), pose), its_substeps);
     inertia.traits |= hub_traits(body_colours[body_word(body, k_hub_word)]);
-    if (word != its_substeps) inertia.traits |= rate_trait(ticks, its_substeps);
+    if (word != its_substeps) inertia.traits |= slowness_trait(ticks, its_substeps);
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
     if (is_in_launched_bodies(inertia))

@@ -28,7 +28,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia,
                                              traits_of_body(state.shapes[body], pose), substeps);
         state.inertias[body].traits |= hub_traits(state.body_colours[body_word(body, k_hub_word)]);
-        if (word != substeps) state.inertias[body].traits |= rate_trait(ticks, substeps);
+        if (word != substeps) state.inertias[body].traits |= slowness_trait(ticks, substeps);
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
             state.inertias[body].traits |= k_trait_grouped;
         if (is_in_launched_bodies(state.inertias[body])) {

@@ -2,7 +2,7 @@
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
 // args.x, args.y: the first pair that is wanted, and how many are.
 // Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, BodyColours, Velocities, Inertias.
-// Writes: Constraints, ToldLoads; ColourTicks, of what is launched.
+// Writes: Constraints, ToldLoads; ColourSubsteps, of what is launched.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -28,7 +28,7 @@ layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
-layout(std430) buffer ColourTicks { uint colour_ticks[]; };
+layout(std430) buffer ColourSubsteps { uint colour_substeps[]; };
 layout(std430) buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 
@@ -52,13 +52,12 @@ void tell_load(LoadBelow load, uint height)
     atomicMax(told_loads[k_told_words * load.body + k_told_height], height);
 }
 
-// In how many ticks the colour has a contact with a sub-step, where they differ. That it is the least number is the rule, and
-// not noted.
-void note_ticks(uint colour, uint traits)
+// In how many ticks the colour has a contact with a sub-step, where that differs. The least number is the rule, and not noted.
+void note_substeps(uint colour, uint traits)
 {
     uint ticks = counters[k_counter_launched_substeps] >> slowness(traits);
     if (counters[k_counter_multirate_islands] == 0u) return;
-    if (ticks > parameters.least_substeps && colour_ticks[colour] < ticks) atomicMax(colour_ticks[colour], ticks);
+    if (ticks > parameters.least_substeps && colour_substeps[colour] < ticks) atomicMax(colour_substeps[colour], ticks);
 }
 
 void main()
@@ -92,6 +91,6 @@ void main()
     }
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
     c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, parameters);
-    if (((inertia_a.traits | inertia_b.traits) & k_trait_grouped) == 0u) note_ticks(colour, c.traits);
+    if (((inertia_a.traits | inertia_b.traits) & k_trait_grouped) == 0u) note_substeps(colour, c.traits);
     pack_ContactConstraint(constraints, index, c);
 }

@@ -32,12 +32,13 @@ void tell_load(const CpuState& state, const LoadBelow& load, uint height) {
     raise_to(told[k_told_height], height);
 }
 
-/// In how many ticks the colour has a contact with a sub-step. That it is the least number is the rule, and not noted.
-static void note_ticks(const CpuState& state, uint colour, const ContactConstraint& c) {
+/// In how many ticks the colour has a contact with a sub-step, where that differs. The least number is the rule, and
+/// not noted.
+static void note_substeps(const CpuState& state, uint colour, const ContactConstraint& c) {
     const uint of_bodies = state.inertias[c.body_a].traits | state.inertias[c.body_b].traits;
     const uint ticks = state.counters[k_counter_launched_substeps] >> slowness(c.traits);
     if ((of_bodies & k_trait_grouped) == 0 && ticks > state.parameters.least_substeps)
-        raise_to(state.colour_ticks[colour], ticks);
+        raise_to(state.colour_substeps[colour], ticks);
 }
 
 static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
@@ -52,8 +53,9 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
             contacts[count++] = {index, manifold, colour, share_of_contact(state, manifold, colour)};
         }
         if (count > 0) lane_passes().prepare_contacts(state, contacts, count);
-        for (uint i = 0; i < count && state.counters[k_counter_multirate_islands] > 0; ++i)
-            note_ticks(state, contacts[i].colour, state.constraints[contacts[i].index]);
+        if (state.counters[k_counter_multirate_islands] == 0) return;
+        for (uint i = 0; i < count; ++i)
+            note_substeps(state, contacts[i].colour, state.constraints[contacts[i].index]);
     };
     state.parallel((manifold_count + lanes - 1) / lanes, prepare_part, k_parallel_grain / 4 / lanes);
 }

@@ -4,7 +4,7 @@
 // than invocations each is loaded once. For worlds in which nothing bounces.
 // Before this file the kernel defines k_multirate_islands, as for contact_passes.glsl.
 // args.x: 1 to count how many groups can run at a time instead.
-// Reads: Counters, ColourOffsets, ColourTicks, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
+// Reads: Counters, ColourOffsets, ColourSubsteps, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
 // HubChanges, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; arrivals[0] is 0.
@@ -24,7 +24,7 @@ layout(local_size_x = 384) in; // fewer leave waits unfilled; more have too few 
 
 layout(std430) readonly buffer ColourOffsets { uint stored_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
-layout(std430) readonly buffer ColourTicks { uint colour_ticks[]; };
+layout(std430) readonly buffer ColourSubsteps { uint colour_substeps[]; };
 layout(std430) readonly buffer Hubs { uint hubs[]; };
 layout(std430) readonly buffer LaunchedBodies { uint launched_bodies[]; };
 layout(std430) coherent buffer HubChanges { HubChange hub_changes[]; };
@@ -186,7 +186,7 @@ void main()
         colour_offsets[i] = stored_offsets[i];
     uint ticks = max(counters[k_counter_launched_substeps], parameters.least_substeps);
     for (uint i = gl_LocalInvocationID.x; k_multirate_islands && i <= k_max_colours; i += gl_WorkGroupSize.x)
-        ticks_between[i] = is_multirate_solve() ? ticks / max(colour_ticks[i], parameters.least_substeps) : 1u;
+        ticks_between[i] = is_multirate_solve() ? ticks / max(colour_substeps[i], parameters.least_substeps) : 1u;
     barrier();
     solve_substeps(ticks);
 }

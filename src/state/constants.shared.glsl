@@ -74,7 +74,7 @@ const uint k_counter_hub_count = 12u;
 const uint k_counter_hub_manifolds = 13u; // in the colours for hubs
 // Of the manifolds that are solved by launches; work groups that solve islands need none.
 const uint k_counter_launched_colours = 14u;
-const uint k_counter_launched_substeps = 15u;
+const uint k_counter_launched_substeps = 15u; // the most; in a multirate world the ticks of a step
 const uint k_counter_launched_overflow = 16u;
 const uint k_counter_report_count = 17u; // contact events
 const uint k_counter_sleeping_bodies = 18u;

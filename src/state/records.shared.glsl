@@ -99,7 +99,7 @@ struct BodyInertia {
     float xz;
     float yz;
     uint traits;   // k_trait_*, and the rate: see resolution/multirate.shared.glsl
-    uint substeps;
+    uint substeps; // of its island, or of its own
 };
 
 // ---- contacts ----
