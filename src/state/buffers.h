@@ -66,7 +66,7 @@ namespace talus::engine {
     X(SortedManifoldKeys, sorted_manifold_keys, uint, "u", Scratch)                                                    \
     X(SortedManifoldOrder, sorted_manifold_order, uint, "u", Scratch)                                                  \
     X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
-    X(ColourSubsteps, colour_substeps, uint, "u", Result)                                                                    \
+    X(ColourSubsteps, colour_substeps, uint, "u", Result)                                                              \
     X(LaunchedBodies, launched_bodies, uint, "u", Scratch)                                                             \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
