@@ -32,8 +32,6 @@ constexpr uint k_most_substeps_of_large = 32;
 constexpr uint k_most_manifolds_each = 64;
 // Bodies an invocation of it, where it had nothing to do of late.
 constexpr uint k_most_bodies_each = 32;
-// Of so many groups that a GPU can run at a time, the persistent launch leaves out one for other launches.
-constexpr uint k_groups_a_spare = 64;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 

@@ -20,6 +20,9 @@ struct Population {
     Waking waking = Waking::None;
 };
 
+/// Of so many groups that a GPU can run at a time, the persistent launch leaves out one for other launches.
+inline constexpr uint k_groups_a_spare = 64;
+
 /// What the host knows of a step before it runs: how large launches may be, and which passes there are.
 struct StepPlan {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;

@@ -223,6 +223,13 @@ protected:
         std::ifstream stream(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(stream), {}};
     }
+    /// A file of a fresh world in which a stack has stood for a while.
+    std::string saved_stack(World& world) const {
+        fill(world, "stack:height=4");
+        world.step(30);
+        world.snapshot().save(file);
+        return content_of(file);
+    }
     std::string error_of_content(const std::string& content) const {
         std::ofstream(file, std::ios::binary) << content;
         return error_of([&] { Snapshot::load(file); });
@@ -275,10 +282,7 @@ TEST_F(SnapshotFile, brings_a_world_back) {
 
 TEST_F(SnapshotFile, says_what_is_wrong) {
     World world({}, options_on(DeviceKind::Cpu));
-    fill(world, "stack:height=4");
-    world.step(30);
-    world.snapshot().save(file);
-    const std::string good = content_of(file);
+    const std::string good = saved_stack(world);
     const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
 
     EXPECT_TRUE(has(error_of([&] { Snapshot::load(folder / "none"); }), "there is no such file"));
@@ -311,10 +315,7 @@ TEST_F(SnapshotFile, says_what_is_wrong) {
 // What a file says of a load is what steps reckon with: one that none can have is told apart from a file that is whole.
 TEST_F(SnapshotFile, refuses_loads_that_none_can_have) {
     World world({}, options_on(DeviceKind::Cpu));
-    fill(world, "stack:height=4");
-    world.step(30);
-    world.snapshot().save(file);
-    const std::string good = content_of(file);
+    const std::string good = saved_stack(world);
     constexpr std::size_t k_head = 12;
     std::string state(ZSTD_getFrameContentSize(good.data() + k_head, good.size() - k_head), '\0');
     ASSERT_EQ(ZSTD_decompress(state.data(), state.size(), good.data() + k_head, good.size() - k_head), state.size());

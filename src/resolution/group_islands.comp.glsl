@@ -43,15 +43,14 @@ void main()
     island_places[body] = place;
     island_bodies[place] = body;
     uint of_island = number_of_substeps(substeps[island]);
+    uint ticks = args.z != k_none ? doubled_substeps(of_island, parameters) : of_island;
     if (is_multirate_island(island_sizes[island], args.z)) {
         if (body == island) atomicAdd(counters[k_counter_multirate_islands], 1u);
-        of_island = doubled_substeps(of_island, parameters);
         // The island's own body has the most: others read it.
-        substeps[body] = k_multirate | (body == island ? of_island : doubled_substeps(substeps[body], parameters));
+        substeps[body] = k_multirate | (body == island ? ticks : doubled_substeps(substeps[body], parameters));
     } else if (body != island) {
         substeps[body] = of_island;
     }
     if (body == island && is_single(size)) atomicAdd(counters[k_counter_singles], 1u);
-    if (args.z != k_none) of_island = doubled_substeps(of_island, parameters);
-    if (group == k_launched && body == island) atomicMax(counters[k_counter_launched_substeps], of_island);
+    if (group == k_launched && body == island) atomicMax(counters[k_counter_launched_substeps], ticks);
 }

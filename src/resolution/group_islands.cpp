@@ -8,7 +8,6 @@ namespace talus::engine {
 
 static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
     const Parameters& p = state.parameters;
-    const bool may_be_multirate = launch.args[2] != k_none;
     uint& launched_substeps = state.counters[k_counter_launched_substeps];
     for (uint body = 0; body < state.parameters.body_count; ++body) {
         const uint island = state.islands[body];
@@ -26,16 +25,15 @@ static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
         if (body == island && is_single(size)) ++state.counters[k_counter_singles];
         state.island_places[body] = place;
         state.island_bodies[place] = body;
-        uint of_island = number_of_substeps(state.substeps[island]);
-        uint of_body = of_island;
+        const uint of_island = number_of_substeps(state.substeps[island]);
+        const uint ticks = launch.args[2] != k_none ? doubled_substeps(of_island, p) : of_island;
         if (is_multirate_island(state.island_sizes[island], launch.args[2])) {
             if (body == island) ++state.counters[k_counter_multirate_islands];
-            of_island = doubled_substeps(of_island, p);
-            of_body = k_multirate | (body == island ? of_island : doubled_substeps(state.substeps[body], p));
+            state.substeps[body] = k_multirate | (body == island ? ticks : doubled_substeps(state.substeps[body], p));
+        } else {
+            state.substeps[body] = of_island;
         }
-        state.substeps[body] = of_body;
-        if (state.island_groups[body] == k_launched)
-            launched_substeps = max(launched_substeps, may_be_multirate ? doubled_substeps(of_island, p) : of_island);
+        if (state.island_groups[body] == k_launched) launched_substeps = max(launched_substeps, ticks);
     }
 }
 

@@ -53,10 +53,10 @@ void tell_load(LoadBelow load, uint height)
 }
 
 // In how many ticks the colour has a contact with a sub-step, where that differs. The least number is the rule, and not noted.
-void note_substeps(uint colour, uint traits)
+void note_substeps(uint colour, uint traits, uint traits_of_bodies)
 {
+    if (counters[k_counter_multirate_islands] == 0u || (traits_of_bodies & k_trait_grouped) != 0u) return;
     uint ticks = counters[k_counter_launched_substeps] >> slowness(traits);
-    if (counters[k_counter_multirate_islands] == 0u) return;
     if (ticks > parameters.least_substeps && colour_substeps[colour] < ticks) atomicMax(colour_substeps[colour], ticks);
 }
 
@@ -91,6 +91,6 @@ void main()
     }
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
     c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, parameters);
-    if (((inertia_a.traits | inertia_b.traits) & k_trait_grouped) == 0u) note_substeps(colour, c.traits);
+    note_substeps(colour, c.traits, inertia_a.traits | inertia_b.traits);
     pack_ContactConstraint(constraints, index, c);
 }
