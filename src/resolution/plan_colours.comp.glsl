@@ -43,6 +43,7 @@ void main()
     uint count = launches ? colour_offsets[colour + 1u] - colour_offsets[colour] : 0u;
     dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     colour_substeps[colour] = 0u;
+    if (colour < k_teams) arrivals[k_team_arrivals + colour] = 0u;
     barrier(); // all have read the counters
     if (colour != 0u) return;
     colour_substeps[k_overflow_colour] = 0u;

@@ -80,6 +80,9 @@ void put_change(uint index, HubChange change) {}
 
 #include "resolution/contact_passes.glsl"
 #include "resolution/body_passes.glsl"
+const bool k_waits_are_long = false;
+const bool k_notes_unlike = false;
+#include "resolution/solve_substeps.glsl"
 
 // Where the group's manifolds begin and end. `group`: the number in their keys. Half of the invocations look for each:
 // they ask at places that are evenly apart, and then between two of these. A search by halves would have four or five
@@ -136,8 +139,18 @@ void wait_for_workers()
     barrier();
 }
 
-uvec3 own_manifolds(uint begin) { return uvec3(begin + worker(), gl_WorkGroupSize.x, begin); }
-void wait_for_few() {} // all are one group
+uint own_begin;
+uint own_end; // the overflow set is the first invocation's, one after the other
+
+void deal_manifolds()
+{
+    own_begin = min(colour_offsets[0] + worker(), end_index);
+    own_end = worker() == 0u ? colour_offsets[k_overflow_colour + 1u] : end_index;
+}
+
+uint settled(uint index) { return index < own_end ? index : k_none; }
+uint first_own() { return settled(own_begin); }
+uint after(uint index) { return index < end_index ? min(index + gl_WorkGroupSize.x, end_index) : index + 1u; }
 
 void integrate_own_bodies(uint tick)
 {
@@ -147,10 +160,12 @@ void integrate_own_bodies(uint tick)
 }
 
 bool has_colour(uint colour, uint tick) { return true; }
+bool is_own_colour(uint colour) { return true; }
+void arrive(uint colour) {}
+void wait_for_colour(uint colour) { wait_for_workers(); }
+void note_pass(uint colour) {}
 void finish_colour(uint colour, uint tick) {}
 void wait_for_finish() {}
-
-#include "resolution/solve_substeps.glsl"
 
 void solve_group(uint group)
 {

@@ -32,7 +32,6 @@ layout(std430) coherent buffer Velocities { BodyVelocityCells velocities[]; };
 
 // As in ColourOffsets: a load for each colour that is not in use took as long as the passes did, where there are hubs.
 shared uint colour_offsets[k_max_colours + 2u];
-shared uint ticks_between[k_max_colours + 1u]; // in which some manifold of the colour may have a sub-step
 
 uint slot_of(uint body) { return body; }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
@@ -69,40 +68,10 @@ HubChange load_change(uint i)
 #include "resolution/move_hubs.glsl"
 uint meeting_groups() { return gl_NumWorkGroups.x; }
 #include "primitives/grid_barrier.glsl"
-
-// Neighbours in the order of manifolds are 32 by 32 in different groups, as there are often fewer of a colour than
-// invocations: all multiprocessors are to have some.
-const uint k_neighbours = 32u;
-
-// Of the workers of `groups` groups, if this one's has the number `group`.
-uint worker_among(uint group, uint groups)
-{
-    uint me = gl_LocalInvocationID.x;
-    return (me / k_neighbours * groups + group) * k_neighbours + me % k_neighbours;
-}
-
-uint worker() { return worker_among(gl_WorkGroupID.x, gl_NumWorkGroups.x); }
-
-// The first colours are those that only a few manifolds have needed. The first group solves these alone while the others
-// make ready for their first: a wait among all groups takes longer than such a colour does.
-const uint k_few = 128u;           // in all these colours together, one for an invocation; with more it is slower
-const uint k_beyond = 0x7fffffffu; // all manifolds
-
-uvec3 own_manifolds(uint begin)
-{
-    uint groups = gl_NumWorkGroups.x;
-    uint end_of_few = begin;
-    for (uint colour = 0u; colour <= k_first_hub_colour && groups > 1u; ++colour) {
-        if (colour_offsets[colour] <= begin + k_few) end_of_few = colour_offsets[colour];
-    }
-    if (end_of_few == begin) return uvec3(begin + worker(), groups * gl_WorkGroupSize.x, begin);
-    if (gl_WorkGroupID.x == 0u) {
-        uint index = begin + gl_LocalInvocationID.x;
-        return uvec3(index < end_of_few ? index : k_beyond, k_beyond, end_of_few);
-    }
-    uint index = end_of_few + worker_among(gl_WorkGroupID.x - 1u, groups - 1u);
-    return uvec3(index, (groups - 1u) * gl_WorkGroupSize.x, end_of_few);
-}
+const bool k_waits_are_long = true;
+const bool k_notes_unlike = true;
+#include "resolution/solve_substeps.glsl"
+#include "resolution/solve_teams.glsl"
 
 // Groups are adding up what contacts have done to hubs: nobody else may read a hub's velocity before the next wait.
 bool hubs_move = false;
@@ -113,33 +82,17 @@ void wait_for_workers()
     hubs_move = false;
 }
 
-void wait_for_few()
-{
-    if (gl_WorkGroupID.x == 0u) {
-        memoryBarrierBuffer();
-        barrier();
-        memoryBarrierBuffer(); // barrier() orders shared memory only
-    }
-}
-
 void wait_for_finish()
 {
     if (hubs_move) wait_for_workers();
 }
 
-bool has_colour(uint colour, uint tick) { return !k_multirate_islands || tick % ticks_between[colour] == 0u; }
-
 void finish_colour(uint colour, uint tick)
 {
-    if (colour < k_first_hub_colour || colour >= k_max_colours) return;
     for (uint i = gl_WorkGroupID.x; i < counters[k_counter_hub_count]; i += gl_NumWorkGroups.x)
         move_hub_by_colour(hubs[i], colour, tick);
     hubs_move = true;
 }
-
-void integrate_own_bodies(uint tick);
-
-#include "resolution/solve_substeps.glsl"
 
 uint fast_marks = 0u; // bits for its bodies in turns: one of them may have more sub-steps than most
 
@@ -165,7 +118,7 @@ void integrate_own_bodies(uint tick)
             uint its_mark = mark;
             next += gl_NumWorkGroups.x * gl_WorkGroupSize.x;
             mark = mark << 1u | mark >> 31u;
-            if (k_multirate_islands && tick % ticks_apart != 0u && (fast_marks & its_mark) == 0u) continue;
+            if (!most_have_substep(tick) && (fast_marks & its_mark) == 0u) continue;
             body = looks_at_all ? place : launched_bodies[place];
             BodyInertia inertia = unpack(inertias[body]);
             is_own = is_in_launched_bodies(inertia);
@@ -184,9 +137,6 @@ void main()
     if (counters[k_counter_did_not_fit] != 0u) return;
     for (uint i = gl_LocalInvocationID.x; i < k_max_colours + 2u; i += gl_WorkGroupSize.x)
         colour_offsets[i] = stored_offsets[i];
-    uint ticks = max(counters[k_counter_launched_substeps], parameters.least_substeps);
-    for (uint i = gl_LocalInvocationID.x; k_multirate_islands && i <= k_max_colours; i += gl_WorkGroupSize.x)
-        ticks_between[i] = is_multirate_solve() ? ticks / max(colour_substeps[i], parameters.least_substeps) : 1u;
     barrier();
-    solve_substeps(ticks);
+    solve_substeps(max(counters[k_counter_launched_substeps], parameters.least_substeps));
 }
