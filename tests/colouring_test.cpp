@@ -256,6 +256,38 @@ TEST_P(Colouring, a_hub_that_loses_its_contacts_is_one_no_longer) {
     EXPECT_LT(largest_speed(world), 0.01f);
 }
 
+/// Of 25 boxes on a plate those stay whose contacts are furthest down.
+TEST_P(Colouring, a_contact_gives_up_a_colour_that_is_needed_no_longer) {
+    World world = make_world();
+    const std::vector<BodyId> ids = world.add(plate_of(5));
+    world.step(3);
+    ASSERT_EQ(world.report().hubs, 0u);
+    ASSERT_GE(world.report().colours, 26u);
+    std::vector<Contact> contacts = world.contacts();
+    std::ranges::sort(contacts, std::greater{}, &Contact::colour);
+    std::size_t removed = 0;
+    for (std::size_t i = 0; i < contacts.size() && removed < 21; ++i) {
+        if (contacts[i].a == ids[0]) continue; // the plate's with the ground
+        world.remove(contacts[i].b);
+        ++removed;
+    }
+    world.step();
+    EXPECT_EQ(world.report().manifolds, 5u);
+    EXPECT_EQ(world.report().colours, 5u);
+    world.step(30);
+    EXPECT_LT(largest_speed(world), 0.01f);
+}
+
+/// With as few contacts as the last of them has, none does: a graph that lasts is the one that would be made.
+TEST_P(Colouring, far_down_colours_that_are_needed_stay) {
+    EngineRun run(options_on(GetParam()), plate_of(5));
+    run.step(3);
+    const Colours before = colours_of(run);
+    run.simulation.set_settings(run.settings); // the next graph is made
+    run.step();
+    EXPECT_EQ(colours_of(run), before);
+}
+
 TEST_P(Colouring, in_sequential_order_there_are_no_colours) {
     World world = make_world();
     world.add(bodies_of("stack:height=4"));

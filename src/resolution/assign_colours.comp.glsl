@@ -2,7 +2,8 @@
 // Colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its bodies takes the
 // first colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count as bodies for most
 // of their manifolds, and the loads on them. As many groups as have manifolds wait for each other after each part of a
-// round; it is one where little is new.
+// round; it is one where little is new. What has kept a colour far down is looked at first, and gives it up where it may find a
+// better one.
 // args.x: 1 to count how many groups can run at a time instead.
 // Reads: Manifolds, Shapes.
 // Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours, Uncoloured and Arrivals
@@ -90,11 +91,39 @@ Edge load_edge(uint pair)
     return edge;
 }
 
-bool makes_hub(uint body)
+uint edges_of(uint body)
 {
-    return is_hub(body_colours[body_word(body, k_used_low)], body_colours[body_word(body, k_used_high)],
-                  body_colours[body_word(body, k_new_edges)], parameters);
+    return count_edges(body_colours[body_word(body, k_used_low)], body_colours[body_word(body, k_used_high)],
+                       body_colours[body_word(body, k_new_edges)]);
 }
+
+bool makes_hub(uint body) { return is_hub(edges_of(body), parameters); }
+
+// Takes one off the list that keeps its colour after all.
+void look_at_kept(uint entry)
+{
+    uint pair = uncoloured[entry] & ~k_has_kept;
+    Manifold manifold = manifolds[pair];
+    uint edges_a = edges_of(manifold.body_a);
+    uint edges_b = edges_of(manifold.body_b);
+    bool is_of_hub = is_hub(edges_a, parameters) || is_hub(edges_b, parameters);
+    if (!is_of_hub && gives_up(manifold.colour, edges_a, edges_b)) return;
+    atomicMax(counters[k_counter_colour_demand], colours_down_to(manifold.colour));
+    uncoloured[entry] = k_none;
+}
+
+void give_up_colour(uint entry)
+{
+    uint pair = uncoloured[entry] & ~k_has_kept;
+    Manifold manifold = manifolds[pair];
+    uint word = manifold.colour < 32u ? k_used_low : k_used_high;
+    uint others = ~(1u << (manifold.colour & 31u));
+    atomicAnd(body_colours[body_word(manifold.body_a, word)], others);
+    atomicAnd(body_colours[body_word(manifold.body_b, word)], others);
+    uncoloured[entry] = pair;
+}
+
+bool has_kept_one(uint entry) { return uncoloured[entry] != k_none && (uncoloured[entry] & k_has_kept) != 0u; }
 
 void list_hub(uint hub)
 {
@@ -217,14 +246,21 @@ void main()
     if (gl_WorkGroupID.x >= group_count) return;
     uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     uint stride = group_count * gl_WorkGroupSize.x;
-    for (uint entry = first; entry < entry_count; entry += stride)
-        find_hubs(uncoloured[entry]);
-    wait_for_workers();
-    if (counters[k_counter_hub_count] > 0u) {
-        for (uint entry = first; entry < entry_count; entry += stride)
-            add_load(uncoloured[entry]);
-        wait_for_workers();
+    for (uint entry = first; entry < entry_count; entry += stride) {
+        if (has_kept_one(entry))
+            look_at_kept(entry);
+        else
+            find_hubs(uncoloured[entry]);
     }
+    wait_for_workers();
+    bool has_hubs = counters[k_counter_hub_count] > 0u;
+    for (uint entry = first; entry < entry_count; entry += stride) {
+        if (has_kept_one(entry))
+            give_up_colour(entry);
+        else if (has_hubs && uncoloured[entry] != k_none)
+            add_load(uncoloured[entry]);
+    }
+    wait_for_workers();
     colour_in_rounds(first, stride, entry_count);
     for (uint i = first; i < counters[k_counter_hub_count]; i += stride) {
         uint shares = shares_of_hub(body_colours[body_word(hubs[i], k_new_edges)],

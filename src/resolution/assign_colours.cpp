@@ -16,18 +16,32 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         uint rank;
         uint pair;
     };
-    std::vector<Edge> edges(state.counters[k_counter_uncoloured]);
-    for (uint i = 0; i < edges.size(); ++i) {
-        const uint pair = state.uncoloured[i];
-        const uint a = state.manifolds[pair].body_a, b = state.manifolds[pair].body_b;
-        edges[i] = {edge_rank(a, b, is_movable(state.shapes[a]) && is_movable(state.shapes[b])), pair};
+    uint& colour_demand = state.counters[k_counter_colour_demand];
+    const auto word_of = [&](uint body, uint word) -> uint& { return state.body_colours[body_word(body, word)]; };
+    const auto edges_of = [&](uint body) {
+        return count_edges(word_of(body, k_used_low), word_of(body, k_used_high), word_of(body, k_new_edges));
+    };
+    const auto makes_hub = [&](uint body) { return is_hub(edges_of(body), state.parameters); };
+    const auto keeps_colour_after_all = [&](const Manifold& manifold) {
+        const bool is_of_hub = makes_hub(manifold.body_a) || makes_hub(manifold.body_b);
+        return is_of_hub || !gives_up(manifold.colour, edges_of(manifold.body_a), edges_of(manifold.body_b));
+    };
+    std::vector<Edge> edges;
+    std::vector<uint> given_up;
+    for (uint i = 0; i < state.counters[k_counter_uncoloured]; ++i) {
+        const uint pair = state.uncoloured[i] & ~k_has_kept;
+        const Manifold& manifold = state.manifolds[pair];
+        const bool has_kept = pair != state.uncoloured[i];
+        if (has_kept && keeps_colour_after_all(manifold)) {
+            colour_demand = max(colour_demand, colours_down_to(manifold.colour));
+            continue;
+        }
+        const bool both_movable =
+            is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]);
+        edges.push_back({edge_rank(manifold.body_a, manifold.body_b, both_movable), pair});
+        if (has_kept) given_up.push_back(pair);
     }
     std::ranges::sort(edges, std::greater{}, &Edge::rank);
-    const auto word_of = [&](uint body, uint word) -> uint& { return state.body_colours[body_word(body, word)]; };
-    const auto makes_hub = [&](uint body) {
-        return is_hub(word_of(body, k_used_low), word_of(body, k_used_high), word_of(body, k_new_edges),
-                      state.parameters);
-    };
     for (const Edge& edge : edges) {
         const std::array bodies{state.manifolds[edge.pair].body_a, state.manifolds[edge.pair].body_b};
         const uint load = std::ranges::all_of(bodies, makes_hub) ? 0 : state.manifold_keys[edge.pair];
@@ -42,6 +56,12 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
             uint& largest = word_of(body, k_largest_load);
             largest = max(largest, largest_load_word(load)); // not negative: ordered as the floats
         }
+    }
+
+    for (const uint pair : given_up) {
+        const Manifold& manifold = state.manifolds[pair];
+        for (const uint body : {manifold.body_a, manifold.body_b})
+            word_of(body, manifold.colour < 32 ? k_used_low : k_used_high) &= ~(1u << (manifold.colour & 31u));
     }
 
     const auto movable = [&](uint body) { return is_movable(state.shapes[body]); };
@@ -91,8 +111,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         if (colour == k_overflow_colour)
             ++state.counters[k_counter_overflow_count];
         else if (colour < k_first_hub_colour)
-            state.counters[k_counter_colour_demand] =
-                max(state.counters[k_counter_colour_demand], colours_down_to(colour));
+            colour_demand = max(colour_demand, colours_down_to(colour));
         else
             ++state.counters[k_counter_hub_manifolds];
     }

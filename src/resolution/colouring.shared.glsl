@@ -61,6 +61,18 @@ inline bool is_kept(uint colour, bool both_movable, uint usable)
     return colour < usable && !(both_movable && colour == k_ground_colour);
 }
 
+// An edge far down, in one of the colours that only a few have needed, gives its colour up where that is further down than
+// either body has edges: it was needed by edges that are gone. All that do are coloured again in the order of ranks. A second
+// graph of the same edges gives them the same colours: each finds taken what was taken before, and its own colour free.
+const uint k_many_colours = 9u;
+
+inline bool is_far_down(uint colour) { return colours_down_to(colour) > k_many_colours; }
+
+inline bool gives_up(uint colour, uint edges_a, uint edges_b) { return colours_down_to(colour) > max(edges_a, edges_b) + 1u; }
+
+// In the list of what has no colour, beside a pair: it has kept one that is far down.
+const uint k_has_kept = 0x80000000u;
+
 // Whether the solver treats a manifold: the bodies touch, or are about to, and neither is a sensor.
 inline bool is_active(Manifold manifold)
 {
@@ -101,10 +113,12 @@ const uint k_parts_to_carry = 16u;
 const uint k_parts_to_carry_on = 32u;
 const uint k_colours_for_first = 4u; // that those may take
 
-inline bool is_hub(uint used_low, uint used_high, uint new_edges, Parameters p)
+inline uint count_edges(uint used_low, uint used_high, uint new_edges)
 {
-    return uint(bitCount(used_low)) + uint(bitCount(used_high)) + new_edges > p.hub_contacts;
+    return uint(bitCount(used_low)) + uint(bitCount(used_high)) + new_edges;
 }
+
+inline bool is_hub(uint edge_count, Parameters p) { return edge_count > p.hub_contacts; }
 
 inline bool carries_hub(uint part, uint whole_load, uint last_colour)
 {

@@ -56,7 +56,10 @@ void keep_colour(uint pair)
         if (is_kept(colour, both_movable, parameters.usable_colours)) {
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
-            atomicMax(colour_demand, colours_down_to(colour));
+            if (is_far_down(colour))
+                uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair | k_has_kept;
+            else
+                atomicMax(colour_demand, colours_down_to(colour));
         } else {
             colour = floatBitsToUint(load_on(pair, manifold.point_count));
             uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair;

@@ -31,7 +31,10 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
                 use_colour(manifold.body_a, colour);
                 use_colour(manifold.body_b, colour);
                 uint& demand = state.counters[k_counter_colour_demand];
-                demand = max(demand, colours_down_to(colour));
+                if (is_far_down(colour))
+                    state.uncoloured[state.counters[k_counter_uncoloured]++] = pair | k_has_kept;
+                else
+                    demand = max(demand, colours_down_to(colour));
             } else {
                 colour = floatBitsToUint(load_on(state, pair));
                 state.uncoloured[state.counters[k_counter_uncoloured]++] = pair;
