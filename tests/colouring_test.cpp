@@ -278,16 +278,6 @@ TEST_P(Colouring, a_contact_gives_up_a_colour_that_is_needed_no_longer) {
     EXPECT_LT(largest_speed(world), 0.01f);
 }
 
-/// With as few contacts as the last of them has, none does: a graph that lasts is the one that would be made.
-TEST_P(Colouring, far_down_colours_that_are_needed_stay) {
-    EngineRun run(options_on(GetParam()), plate_of(5));
-    run.step(3);
-    const Colours before = colours_of(run);
-    run.simulation.set_settings(run.settings); // the next graph is made
-    run.step();
-    EXPECT_EQ(colours_of(run), before);
-}
-
 TEST_P(Colouring, in_sequential_order_there_are_no_colours) {
     World world = make_world();
     world.add(bodies_of("stack:height=4"));
@@ -377,6 +367,34 @@ TEST_P(Graphs, that_last_give_the_bits_of_new_ones) {
         in_one_go.step(steps - 60);
         EXPECT_EQ(in_one_go.state_hash(), lasting.state_hash());
         EXPECT_EQ(in_one_go.report().contacts, lasting.report().contacts);
+    }
+}
+
+/// Boxes are taken off a plate, so that contacts give up their colours.
+TEST_P(Graphs, that_last_have_the_colours_of_new_ones) {
+    for (const uint side : {4u, 6u}) {
+        World lasting = make_world(), made_anew = make_world();
+        std::vector<BodyId> left;
+        for (World* world : {&lasting, &made_anew})
+            left = world->add(plate_of(side));
+        bool lasts = false;
+        for (std::size_t round = 0; round < 4; ++round) {
+            for (int i = 0; i < 25; ++i) {
+                lasting.step();
+                made_anew.set_settings(made_anew.settings());
+                made_anew.step();
+                ASSERT_EQ(lasting.state_hash(), made_anew.state_hash())
+                    << side << ", round " << round << ", step " << i;
+                EXPECT_EQ(lasting.report().colours, made_anew.report().colours);
+            }
+            lasts = lasts || lasting.report().dispatches < made_anew.report().dispatches;
+            for (std::size_t i = left.size() - 1; i > 1; i -= std::min<std::size_t>(i, 2 + round % 2)) {
+                for (World* world : {&lasting, &made_anew})
+                    world->remove(left[i]);
+                left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+        }
+        EXPECT_EQ(lasts, GetParam() != DeviceKind::Hybrid);
     }
 }
 

@@ -218,10 +218,10 @@ TEST_P(Paths, one_persistent_launch_gives_the_bits_of_many) {
         EngineRun one(options_on(GetParam()), bodies, settings), many(options_on(GetParam()), bodies, settings);
         one.simulation.reserve_pairs(8192);
         many.simulation.reserve_pairs(8192);
-        for (int i = 0; i < 4; ++i) {
-            one.step_persistently(i % 2 == 1);
+        for (const engine::uint groups : k_numbers_of_groups) {
+            one.step_persistently(groups % 2 == 1, groups);
             many.step_in_many_launches();
-            ASSERT_TRUE(one.motion() == many.motion()) << "step " << i;
+            ASSERT_TRUE(one.motion() == many.motion()) << groups << " groups";
         }
         EXPECT_GT(one.counter(engine::k_counter_manifold_count), 1000u);
     }
@@ -245,7 +245,7 @@ TEST_P(Paths, groups_that_wait_in_vain_are_an_error) {
     if (GetParam() != DeviceKind::Gpu || run.simulation.state_device().loops_freely())
         return; // only where one group runs after the other is it sure that they do
     run.simulation.reserve_pairs(8192);
-    run.step_persistently(false, 2);
+    run.step_persistently(false, 2, 2);
     EXPECT_EQ(run.counter(engine::k_counter_did_not_fit), engine::k_fit_groups);
     EXPECT_THROW(run.step(), Error);
     EXPECT_EQ(run.counter(engine::k_counter_searched_slots), 0u) << "the next step searches for pairs";

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,10 @@
 #include "simulation.h"
 
 namespace talus::tests {
+
+/// Of a persistent launch, where that many run side by side: all there are, and so few that teams are unlike and
+/// invocations have many contacts each.
+inline constexpr std::array<engine::uint, 5> k_numbers_of_groups{engine::k_none, 1, 2, 3, 5};
 
 class EngineRun {
 public:
@@ -45,12 +50,12 @@ public:
     }
 
     /// A step of a large world whose launches for colours and passes are a single one: of as many groups as run side by
-    /// side, or of one where that is not known. Work groups may take the little islands.
-    void step_persistently(bool in_groups, engine::uint least_groups = 1) {
+    /// side, or fewer; of one where that is not known. Work groups may take the little islands.
+    void step_persistently(bool in_groups, engine::uint most_groups = engine::k_none, engine::uint least_groups = 1) {
         engine::StepPlan plan = plan_for_any_demand();
         plan.in_groups = in_groups;
         const engine::uint groups = simulation.state_device().resident_groups(engine::persistent_solver(plan));
-        plan.persistent_groups = std::max(groups, least_groups);
+        plan.persistent_groups = std::max(std::min(groups, most_groups), least_groups);
         step_as(plan);
     }
 

@@ -202,10 +202,10 @@ TEST_P(HubShares, are_the_same_bits_in_one_persistent_launch_and_in_many) {
     EngineRun many(options_on(GetParam()), plate_with_a_block(), settings);
     one.step(); // finds out how much room the hubs need
     many.step();
-    for (int i = 0; i < 3; ++i) {
-        one.step_persistently(false);
+    for (const engine::uint groups : k_numbers_of_groups) {
+        one.step_persistently(false, groups);
         many.step_in_many_launches();
-        ASSERT_TRUE(one.motion() == many.motion()) << "step " << i;
+        ASSERT_TRUE(one.motion() == many.motion()) << groups << " groups";
     }
     EXPECT_GT(one.counter(engine::k_counter_hub_manifolds), 0u);
 }

@@ -62,8 +62,9 @@ inline bool is_kept(uint colour, bool both_movable, uint usable)
 }
 
 // An edge far down, in one of the colours that only a few have needed, gives its colour up where that is further down than
-// either body has edges: it was needed by edges that are gone. All that do are coloured again in the order of ranks. A second
-// graph of the same edges gives them the same colours: each finds taken what was taken before, and its own colour free.
+// either body has edges, the ground's last colour not counted: it was needed by edges that are gone. All that do are coloured again
+// in the order of ranks. A second graph of the same edges gives them the same colours: each finds taken what was taken before, the
+// two beside the ground's colour too, and its own colour free.
 const uint k_many_colours = 9u;
 
 inline bool is_far_down(uint colour) { return colours_down_to(colour) > k_many_colours; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
-// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's.
+// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's. One
+// that has kept a colour far down is listed too: assign_colours sees whether it needs that, and counts it.
 // Also counts manifolds and contact points, each group its own first.
 // Reads: Manifolds, ManifoldPoints, Shapes.
 // Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,

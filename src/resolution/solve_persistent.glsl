@@ -7,7 +7,7 @@
 // Reads: Counters, ColourOffsets, ColourSubsteps, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
 // HubChanges, Arrivals.
-// Needs: a barrier after prepare_contacts; no more groups than can run at a time; arrivals[0] is 0.
+// Needs: a barrier after prepare_contacts; no more groups than can run at a time; Arrivals as plan_colours leaves it.
 // Overflow: none; does nothing after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: MIT
-// All sub-steps of some bodies and the manifolds between them, in one kernel: its invocations are workers that share both
-// among themselves, and wait for each other after every colour. The passes and their order are those of for_each_pass in
-// contact_passes.h, and so are the bits.
-// A worker keeps the manifold that it has in hand from pass to pass. Where it has several it makes the next one ready before it
-// waits for the others, so that nobody waits for memory; and where the wait is long, after it has said that it is here, so that
-// nobody waits for that. Each step of the work stands here once, as compilers put the code of a function into every place that
-// calls it.
+// All sub-steps of some bodies and the manifolds between them, in one kernel: its invocations are workers that share both among
+// themselves, and wait for each other after every colour. The passes and their order are those of for_each_pass in
+// contact_passes.h, and so are the bits. A worker keeps the manifold that it has in hand from pass to pass, and makes the next one
+// ready before it waits. Each step of the work stands here once, as compilers put a function's code into every place that calls it.
 // Before this file the kernel includes contact_passes.glsl and body_passes.glsl, has colour_offsets[] as the buffer
 // ColourOffsets does, and says
-//   const bool k_waits_are_long: whether to wait for others takes longer than to make a manifold ready
-//   const bool k_notes_unlike: whether it notes which manifolds may not have as many sub-steps as most
+//   const bool k_waits_are_long: to wait takes longer than to make a manifold ready, so a worker does that while others wait for
+//     it no longer
+//   const bool k_notes_unlike: it notes which manifolds may not have as many sub-steps as most
 // Behind it, it defines these:
 
 // Which manifolds are the worker's, once end_index and first_colour are known.
 void deal_manifolds();
-// Its first one with a colour; k_none: it has none.
+// Its first one; k_none: it has none.
 uint first_own();
-// Its next one of the same colour, or the end of that or beyond.
+// Its next one, if that is of the same colour; otherwise the end of that or beyond.
 uint after(uint index);
-// Of what `after` gives: its first one of a later colour, where it has no more of that; or k_none.
+// Of what `after` gives: where that is its next one, or k_none.
 uint settled(uint index);
 
 // Whether the worker is one of those that pass over the colour.
@@ -42,18 +40,18 @@ void integrate_own_bodies(uint tick);
 uint end_index;     // of the manifolds with a colour; the overflow set follows
 uint first_colour;  // in use
 uint index_in_hand; // k_none: none
-uint like_substeps; // the number that most have
+uint like_substeps; // the number that most have, or are taken to have: where the solve is not multirate, the largest
 uint ticks_apart;   // from one of these to the next
 
 // ---- who has another number of sub-steps ----
 //
-// Most manifolds have the same. These are not asked whether they have a sub-step at a tick: a load for each would take as long
-// as the passes do. In ticks in which they have none, a worker goes through a list of its others.
+// Those with the same as most are not asked whether they have a sub-step at a tick: a load for each would take as long as the
+// passes do. In ticks in which they have none, a worker goes through a list of its others.
 
 uint turn;         // how many of its manifolds, or of the list, the worker has come by in this pass
 uint unlike_marks; // bits for its manifolds in turns: one of them may have another number
 
-const uint k_most_listed = 12u; // with more there would not be enough shared memory everywhere
+const uint k_most_listed = 12u; // 18 of the 32 KB of shared memory that OpenGL promises
 shared uint unlike_list[k_multirate_islands ? k_most_listed * gl_WorkGroupSize.x : 1u];
 uint unlike_count; // of the worker; with more than are listed it goes through all
 

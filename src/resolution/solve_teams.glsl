@@ -8,7 +8,7 @@
 
 const uint k_few = 128u; // in all the first colours together, one for an invocation; with more it is slower
 const uint k_few_team = 0u;
-const uint k_even_team = 1u; // of the colours with even numbers; every other one of the groups that are not the first
+const uint k_even_team = 1u; // of the colours with even numbers: every other one of the groups that are not alone
 const uint k_odd_team = 2u;
 const uint k_whole_team = 3u; // both
 
@@ -132,7 +132,7 @@ void deal_manifolds()
         uint dealt = 0u;
         for (uint before = first_colour; before < colour; ++before)
             dealt += teams[before] == teams[colour] ? count_of(before) : 0u;
-        dealt_before[colour] = dealt % workers_of(teams[colour]);
+        dealt_before[colour] = dealt % max(workers_of(teams[colour]), 1u); // a single group is no odd team
         if (!k_multirate_islands) continue;
         ticks_between[colour] = ticks_apart * like_substeps / max(colour_substeps[colour], like_substeps);
     }

@@ -95,7 +95,7 @@ uint GlDevice::resident_groups(const Kernel& kernel) {
     const auto found = resident_groups_.find(&kernel);
     if (found != resident_groups_.end()) return found->second;
     std::array<uint, k_arrival_words> arrivals{};
-    grow(BufferId::Arrivals, sizeof arrivals);
+    grow(BufferId::Arrivals, sizeof arrivals); // a device by itself has no room yet
     write(BufferId::Arrivals, 0, std::as_bytes(std::span(arrivals)));
     run({.kernel = kernel, .items = k_trial_groups * kernel.items_a_group, .args = {1}});
     read(std::array{ReadRequest{BufferId::Arrivals, sizeof arrivals, arrivals.data()}});
