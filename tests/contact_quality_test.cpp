@@ -293,7 +293,8 @@ TEST_P(ContactQuality, a_heap_of_overlapping_boxes_does_not_explode) {
     }
     for (const Pose& pose : world.poses())
         EXPECT_LT(pose.position.y, 3.0f);
-    world.step(240); // of 400 such heaps, each a little different, in seven a box fell yet after 4 s, and in none after 8
+    // Of 400 such heaps, each a little different, in seven a box fell yet after 4 s, and in none after 8.
+    world.step(240);
     EXPECT_LT(largest_speed(world), 0.5f);
 }
 
