@@ -116,8 +116,8 @@ void give_up_colour(uint entry)
 {
     uint pair = uncoloured[entry] & ~k_has_kept;
     Manifold manifold = manifolds[pair];
-    uint word = manifold.colour < 32u ? k_used_low : k_used_high;
-    uint others = ~(1u << (manifold.colour & 31u));
+    uint word = used_word(manifold.colour);
+    uint others = ~used_bit(manifold.colour);
     atomicAnd(body_colours[body_word(manifold.body_a, word)], others);
     atomicAnd(body_colours[body_word(manifold.body_b, word)], others);
     uncoloured[entry] = pair;
@@ -200,9 +200,9 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
         atomicAdd(left_over, 1u);
         return;
     }
-    uint word = edge.colour < 32u ? k_used_low : k_used_high;
     for (uint end = 0u; end < 2u; ++end) {
-        if (edge.obstructs[end]) body_colours[body_word(edge.body[end], word)] |= 1u << (edge.colour & 31u);
+        if (edge.obstructs[end])
+            body_colours[body_word(edge.body[end], used_word(edge.colour))] |= used_bit(edge.colour);
     }
     if (!edge.is_shared) {
         count_unshared(edge);

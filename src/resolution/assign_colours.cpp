@@ -18,6 +18,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
     };
     uint& colour_demand = state.counters[k_counter_colour_demand];
     const auto word_of = [&](uint body, uint word) -> uint& { return state.body_colours[body_word(body, word)]; };
+    const auto movable = [&](uint body) { return is_movable(state.shapes[body]); };
     const auto edges_of = [&](uint body) {
         return count_edges(word_of(body, k_used_low), word_of(body, k_used_high), word_of(body, k_new_edges));
     };
@@ -36,8 +37,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
             colour_demand = max(colour_demand, colours_down_to(manifold.colour));
             continue;
         }
-        const bool both_movable =
-            is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]);
+        const bool both_movable = movable(manifold.body_a) && movable(manifold.body_b);
         edges.push_back({edge_rank(manifold.body_a, manifold.body_b, both_movable), pair});
         if (has_kept) given_up.push_back(pair);
     }
@@ -61,10 +61,9 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
     for (const uint pair : given_up) {
         const Manifold& manifold = state.manifolds[pair];
         for (const uint body : {manifold.body_a, manifold.body_b})
-            word_of(body, manifold.colour < 32 ? k_used_low : k_used_high) &= ~(1u << (manifold.colour & 31u));
+            word_of(body, used_word(manifold.colour)) &= ~used_bit(manifold.colour);
     }
 
-    const auto movable = [&](uint body) { return is_movable(state.shapes[body]); };
     const auto of_hub = [&](uint body) { return word_of(body, k_hub_word) != 0; };
     const auto hub_of = [&](const Manifold& manifold) {
         return of_hub(manifold.body_a) ? manifold.body_a : manifold.body_b;
@@ -104,8 +103,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         for (const uint body : bodies) {
             if (!is_shared && of_hub(body)) ++word_of(body, k_hub_word);
             const bool obstructs = movable(body) && !(is_shared && of_hub(body));
-            if (colour != k_overflow_colour && obstructs)
-                word_of(body, colour < 32 ? k_used_low : k_used_high) |= 1u << (colour & 31u);
+            if (colour != k_overflow_colour && obstructs) word_of(body, used_word(colour)) |= used_bit(colour);
         }
         if (!is_shared && hub_count == 1) word_of(hub, k_unshared_load) += part;
         if (colour == k_overflow_colour)

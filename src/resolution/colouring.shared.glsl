@@ -94,6 +94,10 @@ const uint k_body_words = 9u;
 
 inline uint body_word(uint body, uint word) { return k_body_words * body + word; }
 
+// Where a colour in use at a body has its bit, and the bit.
+inline uint used_word(uint colour) { return colour < 32u ? k_used_low : k_used_high; }
+inline uint used_bit(uint colour) { return 1u << (colour & 31u); }
+
 // ---- hubs ----
 //
 // A body with more contacts than there are colours would have most of them solved one after the other. Such a hub does

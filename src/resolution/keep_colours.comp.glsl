@@ -35,8 +35,7 @@ shared uint colour_demand;
 void use_colour(uint body, uint colour)
 {
     if (!is_movable(shapes[body])) return;
-    uint word = colour < 32u ? k_used_low : k_used_high;
-    atomicOr(body_colours[body_word(body, word)], 1u << (colour & 31u));
+    atomicOr(body_colours[body_word(body, used_word(colour))], used_bit(colour));
 }
 
 void want_colour(uint body)

@@ -10,8 +10,7 @@ namespace talus::engine {
 static void keep_colours_on_cpu(CpuState& state, const Launch&) {
     const auto use_colour = [&](uint body, uint colour) {
         if (!is_movable(state.shapes[body])) return;
-        const uint word = colour < 32 ? k_used_low : k_used_high;
-        state.body_colours[body_word(body, word)] |= 1u << (colour & 31u);
+        state.body_colours[body_word(body, used_word(colour))] |= used_bit(colour);
     };
     const auto want_colour = [&](uint body) {
         if (is_movable(state.shapes[body])) ++state.body_colours[body_word(body, k_new_edges)];
