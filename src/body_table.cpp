@@ -115,7 +115,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
     inertias[slot] = inertia;
     poses[slot] = {to_glm(definition.pose.position), k_body_placed, to_glm(definition.pose.rotation)};
     velocities[slot] = {to_glm(definition.velocity.linear), rigid ? 1.0f / mass : 0.0f,
-                        to_glm(definition.velocity.angular), 0.0f};
+                        to_glm(definition.velocity.angular), 0};
     shapes[slot] = pack_shape(definition.shape, definition.kind, definition.sensor);
     properties[slot] = {rigid ? 1.0f / to_glm(inertia) : vec3(0.0f),
                         velocities[slot].inverse_mass,

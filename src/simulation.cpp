@@ -152,7 +152,6 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::TreeGrids, 1);
     grow_everywhere(BufferId::HubChanges, 1);
     grow_everywhere(BufferId::Arrivals, k_arrival_words);
-    grow_everywhere(BufferId::ColourSubsteps, k_max_colours + 1);
     grow_everywhere(BufferId::Rests, 1);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));

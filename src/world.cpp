@@ -254,7 +254,7 @@ void World::set_velocity(BodyId id, const Velocity& velocity) {
     impl_->thaw(slot);
     BodyTable& table = impl_->table;
     table.velocities[slot] = {to_glm(velocity.linear), table.properties[slot].inverse_mass, to_glm(velocity.angular),
-                              0.0f};
+                              0};
 }
 
 std::vector<Pose> World::poses() const {

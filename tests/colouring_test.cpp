@@ -82,6 +82,35 @@ void expect_valid(const EngineRun& run) {
     EXPECT_EQ(run.counter(engine::k_counter_hub_manifolds), of_hubs);
 }
 
+/// Each contact in the colours that are solved one after the other knows its place among those of each body.
+void expect_order(const EngineRun& run) {
+    const Colours colours = colours_of(run);
+    std::map<uint, std::set<uint>> colours_at; // of each body that can be pushed
+    for (const auto& [bodies, colour] : colours)
+        for (const uint body : {bodies.first, bodies.second})
+            if (engine::is_movable(run.table.shapes[body]) && colour < engine::k_first_hub_colour)
+                colours_at[body].insert(colour);
+    const auto inertias = run.read<engine::BodyInertia>(BufferId::Inertias, run.table.slot_count());
+    for (uint body = 0; body < run.table.slot_count(); ++body)
+        EXPECT_EQ(engine::contacts_of_body(inertias[body].traits), colours_at[body].size()) << "body " << body;
+    const auto place = [&](uint body, uint colour) {
+        const std::set<uint>& its_colours = colours_at[body];
+        return static_cast<uint>(std::distance(its_colours.begin(), its_colours.lower_bound(colour)));
+    };
+    for (const auto& c :
+         run.read<engine::ContactConstraint>(BufferId::Constraints, run.counter(engine::k_counter_manifold_count))) {
+        const uint colour = colours.at({c.body_a, c.body_b});
+        if (colour >= engine::k_first_hub_colour) continue;
+        const auto expect_place = [&](uint body, uint earlier, uint last) {
+            EXPECT_EQ(engine::earlier_of(c.counts, earlier), place(body, colour)) << "colour " << colour;
+            const bool is_last = engine::is_movable(run.table.shapes[body]) && colour == *colours_at[body].rbegin();
+            EXPECT_EQ(engine::is_last_of(c.counts, last), is_last) << "colour " << colour;
+        };
+        expect_place(c.body_a, engine::k_earlier_of_a, engine::k_last_of_a);
+        expect_place(c.body_b, engine::k_earlier_of_b, engine::k_last_of_b);
+    }
+}
+
 struct Case {
     std::string name;
     uint steps;
@@ -98,6 +127,17 @@ TEST_P(Colouring, no_body_is_twice_in_a_colour) {
         expect_valid(run);
         run.step(c.steps);
         expect_valid(run);
+    }
+}
+
+TEST_P(Colouring, contacts_know_their_place_at_a_body) {
+    for (const Case& c : k_cases) {
+        SCOPED_TRACE(c.name);
+        EngineRun run(options_on(GetParam()), bodies_of(c.name));
+        run.step(c.steps);
+        expect_order(run);
+        run.step(); // with the graph that lasts
+        expect_order(run);
     }
 }
 
@@ -198,6 +238,7 @@ TEST_P(Colouring, the_contacts_of_a_hub_have_one_colour) {
     EXPECT_EQ(run.counter(engine::k_counter_hub_manifolds), 81u);
     run.step(29);
     expect_valid(run);
+    expect_order(run);
     expect_rest(run, bodies);
 }
 
@@ -211,6 +252,7 @@ TEST_P(Colouring, a_body_may_touch_two_hubs_and_hubs_may_touch) {
     EXPECT_EQ(run.counter(engine::k_counter_overflow_count), 1u) << "plate on plate";
     run.step(59);
     expect_valid(run);
+    expect_order(run);
     expect_rest(run, bodies);
 }
 

@@ -209,11 +209,16 @@ TEST_P(Paths, a_work_group_for_a_single_island_gives_the_bits_of_many_launches) 
 }
 
 TEST_P(Paths, one_persistent_launch_gives_the_bits_of_many) {
-    Settings settings;
-    settings.substeps = settings.max_substeps = 2;
-    for (const SolveOrder order : {SolveOrder::Coloured, SolveOrder::Sequential}) {
-        SCOPED_TRACE(static_cast<int>(order));
-        settings.solve_order = order;
+    Settings coloured;
+    coloured.substeps = coloured.max_substeps = 2;
+    Settings sequential = coloured, iterated = coloured, without_relax_pass = coloured;
+    sequential.solve_order = SolveOrder::Sequential;
+    iterated.iterations = 3;
+    without_relax_pass.stabilisation = Stabilisation::Baumgarte;
+    without_relax_pass.iterations = 3;
+    int number = 0;
+    for (const Settings& settings : {coloured, sequential, iterated, without_relax_pass}) {
+        SCOPED_TRACE(number++);
         const std::vector<BodyDefinition> bodies = many_islands(0.0f);
         EngineRun one(options_on(GetParam()), bodies, settings), many(options_on(GetParam()), bodies, settings);
         one.simulation.reserve_pairs(8192);

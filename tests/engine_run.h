@@ -14,7 +14,7 @@
 
 namespace talus::tests {
 
-/// Of a persistent launch, where that many run side by side: all there are, and so few that teams are unlike and
+/// Of a persistent launch, where that many run side by side: all there are, and so few that
 /// invocations have many contacts each.
 inline constexpr std::array<engine::uint, 5> k_numbers_of_groups{engine::k_none, 1, 2, 3, 5};
 

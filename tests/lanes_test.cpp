@@ -91,7 +91,7 @@ struct Items {
         const float inverse_mass = is_static ? 0.0f : 1.0f + number(0.5f);
         const vec4 rotation = normalise_quaternion(vec4(number(1.0f), number(1.0f), number(1.0f), 1.0f));
         poses.push_back({vector(5.0f), i % 17 == 16 ? k_body_frozen : 0u, rotation});
-        velocities.push_back({vector(8.0f), inverse_mass, vector(5.0f), 0.0f});
+        velocities.push_back({vector(8.0f), inverse_mass, vector(5.0f), 0});
         const uint kind = is_static ? k_kind_static : i % 9 == 8 ? k_kind_kinematic : k_kind_rigid;
         shapes.push_back({vec3(0.5f), k_shape_box | kind << 8 | (i % 10 == 4 ? k_sensor_bit : 0u)});
         const vec3 inverse_inertia = i % 3 == 0 ? vec3(6.0f) : vec3(6.0f, 5.0f + number(1.0f), 4.0f);
@@ -112,7 +112,7 @@ struct Items {
         const bool a_is_hub = i % 5 == 2, b_is_static = i % 4 == 3, b_is_hub = i % 8 == 5 && !a_is_hub;
         c.body_a = a_is_hub ? k_hub : 2 * i;
         c.body_b = b_is_static ? k_static_body : b_is_hub ? k_hub : 2 * i + 1;
-        c.point_count = 1 + i % 4;
+        c.counts = 1 + i % 4;
         const vec3 n = vector(1.0f);
         c.normal = scale3(n, inverse_sqrt(dot3(n, n)));
         c.friction = 0.5f;
@@ -127,7 +127,7 @@ struct Items {
         c.hub_share = 0.1f + 0.05f * static_cast<float>(i % 3);
         c.friction_mass = vec3(0.4f, 0.4f, 0.1f);
         c.substeps = i % 7 == 6 ? 2 : 8;
-        for (int k = 0; k < static_cast<int>(c.point_count); ++k) {
+        for (int k = 0; k < static_cast<int>(point_count_of(c.counts)); ++k) {
             c.x[k] = number(0.5f);
             c.y[k] = number(0.5f);
             c.lever[k] = 0.5f;
@@ -325,7 +325,7 @@ ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contac
     const BodyInertia &inertia_a = state.inertias[manifold.body_a], &inertia_b = state.inertias[manifold.body_b];
     const float inverse_mass_a = state.velocities[manifold.body_a].inverse_mass;
     const float inverse_mass_b = state.velocities[manifold.body_b].inverse_mass;
-    ContactConstraint c = begin_constraint(manifold, contact.manifold, contact.colour, contact.hub_share,
+    ContactConstraint c = begin_constraint(manifold, contact.manifold, contact.colour, contact.order, contact.hub_share,
                                            inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, state.parameters);
     const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * contact.manifold];
     for (uint i = 0; i < manifold.point_count; ++i)
@@ -351,14 +351,16 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
     for (uint i = 0; i < Items::k_count; ++i) {
         const ContactConstraint& c = items.constraints[i];
         const vec3 friction = items.vector(0.3f);
-        manifolds.push_back({c.body_a, c.body_b, c.point_count, 0, c.normal, 0, 0.5f, 0.0f, friction.x, friction.y,
+        const uint point_count = point_count_of(c.counts);
+        manifolds.push_back({c.body_a, c.body_b, point_count, 0, c.normal, 0, 0.5f, 0.0f, friction.x, friction.y,
                              friction.z, 1.0f + items.number(0.9f), 1.0f + items.number(0.9f),
                              make_demand(8, 0, 1 + i % 5)});
         for (uint k = 0; k < 4; ++k) // those that are not there may be anything
-            points.push_back({items.vector(0.5f), k < c.point_count ? items.number(0.02f) : NAN, items.vector(0.5f), k,
+            points.push_back({items.vector(0.5f), k < point_count ? items.number(0.02f) : NAN, items.vector(0.5f), k,
                               items.vector(5.0f), items.number(1.0f) + 1.0f});
         const bool of_hub = c.body_a == Items::k_hub || c.body_b == Items::k_hub;
-        contacts.push_back({i, i, of_hub && i % 2 == 0 ? k_first_hub_colour : i % 3, of_hub ? 0.125f : 1.0f});
+        const uint order = i % 3 << k_earlier_of_a | i % 5 << k_earlier_of_b | i % 2 << k_last_of_b;
+        contacts.push_back({i, i, of_hub && i % 2 == 0 ? k_first_hub_colour : i % 3, order, of_hub ? 0.125f : 1.0f});
     }
     std::vector<ContactConstraint> wanted;
     std::vector<uint> wanted_loads(k_told_words * Items::k_bodies, 0);

@@ -4,7 +4,7 @@
 // Before this file the kernel declares Counters, and defines uint meeting_groups(): how many groups meet, the first ones
 // of the launch.
 
-// 0: all groups that have arrived; 1: what was counted; 2: for the kernel; from k_team_arrivals on: those of each team
+// 0: all groups that have arrived; 1: what was counted; 2: for the kernel
 layout(std430) coherent volatile buffer Arrivals { uint arrivals[]; };
 
 uint meetings = 0u;
@@ -12,46 +12,34 @@ uint meetings = 0u;
 // Some seconds: nobody waits for so long whose partners run at all.
 const uint k_most_polls = 1u << 22;
 
-bool have_arrived(uint place, uint expected) { return int(arrivals[place] - expected) >= 0; }
+bool have_arrived(uint expected) { return int(arrivals[0] - expected) >= 0; }
+
+const uint k_so_many = 0x40000000u;
+
+bool have_given_up() { return arrivals[0] >= k_so_many; }
 
 // Lets all go on, in this meeting and in all later ones. The host hears of it.
 void give_up()
 {
-    const uint so_many = 0x40000000u;
-    atomicAdd(arrivals[0], so_many);
-    atomicAdd(arrivals[k_team_arrivals], so_many); // in a loop over the teams NVIDIA's compiler crashes (580.159.04)
-    atomicAdd(arrivals[k_team_arrivals + 1u], so_many);
-    atomicAdd(arrivals[k_team_arrivals + 2u], so_many);
-    atomicAdd(arrivals[k_team_arrivals + 3u], so_many);
+    atomicOr(arrivals[0], k_so_many);
     atomicOr(counters[k_counter_did_not_fit], k_fit_groups);
 }
 
-// What invocations have written to coherent buffers before their group arrives, those of a group see that has waited for
-// it. Between the two each may do what concerns nobody else. Both in uniform control flow. arrivals[place] is 0 when the
-// launch begins.
-void arrive_at(uint place)
-{
-    memoryBarrierBuffer();
-    barrier();
-    if (gl_LocalInvocationID.x == 0u) atomicAdd(arrivals[place], 1u);
-}
-
-// `expected`: the groups, since the launch began. Only the first invocation has to know.
-void wait_for_arrivals(uint place, uint expected)
-{
-    if (gl_LocalInvocationID.x == 0u) {
-        for (uint i = 0u; i < k_most_polls && !have_arrived(place, expected); ++i) {}
-        if (!have_arrived(place, expected)) give_up();
-    }
-    barrier();
-    memoryBarrierBuffer(); // barrier() orders shared memory only
-}
-
+// What invocations have written to coherent buffers before it, all see behind it. In uniform control flow. arrivals[0] is 0 when
+// the launch begins.
 void wait_for_all_groups()
 {
     ++meetings;
-    arrive_at(0u);
-    wait_for_arrivals(0u, meetings * meeting_groups());
+    memoryBarrierBuffer();
+    barrier();
+    if (gl_LocalInvocationID.x == 0u) {
+        uint expected = meetings * meeting_groups();
+        atomicAdd(arrivals[0], 1u);
+        for (uint i = 0u; i < k_most_polls && !have_arrived(expected); ++i) {}
+        if (!have_arrived(expected)) give_up();
+    }
+    barrier();
+    memoryBarrierBuffer(); // barrier() orders shared memory only
 }
 
 const uint k_patience_of_groups = 4096u; // polls; some milliseconds

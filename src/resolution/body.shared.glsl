@@ -245,7 +245,7 @@ inline BodyVelocity frozen_velocity()
     velocity.linear = vec3(0.0f, 0.0f, 0.0f);
     velocity.inverse_mass = 0.0f;
     velocity.angular = vec3(0.0f, 0.0f, 0.0f);
-    velocity.reserved = 0.0f;
+    velocity.stamp = 0u;
     return velocity;
 }
 

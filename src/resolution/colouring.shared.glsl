@@ -123,6 +123,27 @@ inline uint count_edges(uint used_low, uint used_high, uint new_edges)
     return uint(bitCount(used_low)) + uint(bitCount(used_high)) + new_edges;
 }
 
+// Of the colours in use at a body, how many come before this one.
+inline uint count_earlier(uint used_low, uint used_high, uint colour)
+{
+    uint below = used_bit(colour) - 1u;
+    return uint(bitCount(colour < 32u ? used_low & below : used_low)) +
+           uint(bitCount(colour < 32u ? 0u : used_high & below));
+}
+
+inline bool is_last_colour(uint used_low, uint used_high, uint colour)
+{
+    return count_earlier(used_low, used_high, colour) + 1u == count_earlier(used_low, used_high, k_first_hub_colour);
+}
+
+// See contact_order.shared.glsl. `place_earlier`, `place_last`: those of A, or of B.
+inline uint order_at_body(uint used_low, uint used_high, uint colour, uint place_earlier, uint place_last)
+{
+    if (colour >= k_first_hub_colour) return 0u;
+    uint last = is_last_colour(used_low, used_high, colour) ? 1u : 0u;
+    return count_earlier(used_low, used_high, colour) << place_earlier | last << place_last;
+}
+
 inline bool is_hub(uint edge_count, Parameters p) { return edge_count > p.hub_contacts; }
 
 inline bool carries_hub(uint part, uint whole_load, uint last_colour)
@@ -154,5 +175,9 @@ inline uint shares_of_hub(uint edge_count, uint hub_word) { return edge_count - 
 inline uint largest_load_word(uint load) { return load + 1u; }
 inline uint largest_load(uint word) { return word - 1u; }
 
-// For BodyInertia::traits.
-inline uint hub_traits(uint hub_word) { return hub_word != 0u ? k_trait_hub : 0u; }
+// For BodyInertia::traits, of a body's words.
+inline uint traits_in_graph(uint used_low, uint used_high, uint hub_word)
+{
+    uint contacts = count_earlier(used_low, used_high, k_first_hub_colour);
+    return (hub_word != 0u ? k_trait_hub : 0u) | contacts << k_contacts_of_body;
+}

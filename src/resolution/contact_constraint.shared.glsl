@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From a manifold to the solver's record of it, and back.
-// Needs resolution/manifold_rows.shared.glsl, hub.shared.glsl, softness.shared.glsl, load.shared.glsl, multirate.shared.glsl and
-// island.shared.glsl.
+// Needs resolution/manifold_rows.shared.glsl, contact_order.shared.glsl, hub.shared.glsl, softness.shared.glsl,
+// load.shared.glsl, multirate.shared.glsl and island.shared.glsl.
 
 // Whether a pair is one of those that a launch is for.
 inline bool is_among(uint pair, uint first, uint count) { return pair >= first && pair - first < count; }
@@ -41,8 +41,8 @@ inline ContactRate find_rate(uint demand, BodyInertia a, BodyInertia b, Paramete
     return rate;
 }
 
-// Impulses are kept for a whole step, and accumulated in a sub-step.
-inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, float hub_share,
+// Impulses are kept for a whole step, and accumulated in a sub-step. `order`: see contact_order.shared.glsl.
+inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, uint order, float hub_share,
                                           float inverse_mass_a, float inverse_mass_b, BodyInertia inertia_a,
                                           BodyInertia inertia_b, Parameters p)
 {
@@ -56,7 +56,7 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.body_a = manifold.body_a;
     c.body_b = manifold.body_b;
     c.manifold = manifold_index;
-    c.point_count = manifold.point_count;
+    c.counts = manifold.point_count | order;
     c.normal = manifold.normal;
     c.friction = manifold.friction;
     c.centre_a = none;
@@ -87,7 +87,7 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
 
 inline ContactConstraint add_to_centre(ContactConstraint c, ManifoldPoint point)
 {
-    precise float share = reciprocal(float(c.point_count));
+    precise float share = reciprocal(float(point_count_of(c.counts)));
     c.centre_a = add_scaled(c.centre_a, point.anchor_a, share);
     c.centre_b = add_scaled(c.centre_b, point.anchor_b, share);
     return c;

@@ -34,6 +34,7 @@ uint body_a;
 uint body_b;
 uint slot_a;
 uint slot_b;
+uint counts;
 uint traits;
 uint substeps;
 float hub_share;
@@ -54,6 +55,7 @@ void take_constraint(uint index)
     body_b = c.body_b;
     slot_a = slot_of(body_a);
     slot_b = slot_of(body_b);
+    counts = c.counts;
     traits = c.traits;
     substeps = c.substeps;
     hub_share = c.hub_share;
@@ -94,11 +96,18 @@ PassTarget target_of_pass(uint pass)
     return target;
 }
 
-ManifoldState begin_pass()
+VelocityPair load_velocities()
+{
+    VelocityPair velocities;
+    velocities.a = load_velocity(slot_a);
+    velocities.b = load_velocity(slot_b);
+    return velocities;
+}
+
+ManifoldState begin_pass(VelocityPair velocities)
 {
     ManifoldState s;
-    s.velocities.a = load_velocity(slot_a);
-    s.velocities.b = load_velocity(slot_b);
+    s.velocities = velocities;
     s.impulses = impulses;
     s.is_hit = false;
     return s;
@@ -135,7 +144,7 @@ ManifoldState pass_over_hit(uint index, float old_share)
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
-    ManifoldState before = begin_pass();
+    ManifoldState before = begin_pass(load_velocities());
     precise vec3 falling = falling_acceleration_of(body_b, before.velocities.b) -
                            falling_acceleration_of(body_a, before.velocities.a);
     Hit hit = solve_hit(before.velocities, rows, slip, separations, falling, substep.inv_h, parameters);
@@ -165,21 +174,23 @@ void put_velocities(uint index, uint pass, uint tick, VelocityPair before, Veloc
     put_velocity(index, tick, body_b, slot_b, traits >> k_traits_of_b, pass == k_relax ? 1.0 : part_b, before.b, after.b);
 }
 
-// One pass over the constraint in hand, whose index it is.
+// What a pass over the constraint in hand, whose index it is, makes of its bodies' velocities.
+VelocityPair solve_constraint(uint pass, uint index, PassTarget target, VelocityPair velocities)
+{
+    if (pass == k_warm_start) return warm_start_manifold(velocities, rows, impulses);
+    ManifoldState before = begin_pass(velocities);
+    ManifoldState solved = solve_manifold(before, rows, target);
+    if (k_bounces && solved.is_hit && can_be_hit(index, before)) {
+        if (pass == k_relax) return velocities; // the next step's
+        solved = pass_over_hit(index, target.old_share);
+    }
+    if (!is_finite_pair(solved.velocities)) solved = before; // what has gone wrong here is kept from the bodies
+    impulses = solved.impulses;
+    return solved.velocities;
+}
+
 void pass_over_constraint(uint pass, uint tick, uint index, PassTarget target)
 {
-    ManifoldState before = begin_pass();
-    ManifoldState solved = before;
-    if (pass == k_warm_start) {
-        solved.velocities = warm_start_manifold(before.velocities, rows, impulses);
-    } else {
-        solved = solve_manifold(before, rows, target);
-        if (k_bounces && solved.is_hit && can_be_hit(index, before)) {
-            if (pass == k_relax) return; // the next step's
-            solved = pass_over_hit(index, target.old_share);
-        }
-        if (!is_finite_pair(solved.velocities)) solved = before; // what has gone wrong here is kept from the bodies
-        impulses = solved.impulses;
-    }
-    put_velocities(index, pass, tick, before.velocities, solved.velocities);
+    VelocityPair before = load_velocities();
+    put_velocities(index, pass, tick, before, solve_constraint(pass, index, target, before));
 }

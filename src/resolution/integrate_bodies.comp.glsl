@@ -29,11 +29,14 @@ BodyWarmStart load_warm_start(uint body) { return unpack(warm_starts[body]); }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 
 const bool k_multirate_islands = true;
+bool is_own(BodyInertia inertia) { return is_launched(inertia); }
+BodyVelocity load_settled_velocity(uint body, uint its_traits) { return load_velocity(body); }
+
 #include "resolution/body_passes.glsl"
 
 void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
-    if (is_launched(unpack(inertias[body]))) integrate_body(body, args.x);
+    integrate_body(body, args.x);
 }

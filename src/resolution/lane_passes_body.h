@@ -13,14 +13,15 @@ using BodyOffsets = Offsets<sizeof(engine::BodyVelocity)>; ///< in all arrays of
 
 template <typename Places> TALUS_LANE BodyVelocity velocities_at(const CpuState& state, const Places& bodies) {
     const auto linear = gather(state.velocities.data, bodies, 0), angular = gather(state.velocities.data, bodies, 1);
-    return {three_of(linear), linear.w, three_of(angular), angular.w};
+    return {three_of(linear), linear.w, three_of(angular), floatBitsToUint(angular.w)};
 }
 
 template <typename Places> TALUS_LANE void put_velocities(const CpuState& state, const Places& bodies,
                                                           std::uint32_t lanes, const BodyVelocity& v) {
     const std::uint32_t pushed = lanes & bits_of(v.inverse_mass != 0.0f);
     scatter(state.velocities.data, bodies, 0, pushed, {v.linear.x, v.linear.y, v.linear.z, v.inverse_mass});
-    scatter(state.velocities.data, bodies, 1, pushed, {v.angular.x, v.angular.y, v.angular.z, v.reserved});
+    scatter(state.velocities.data, bodies, 1, pushed,
+            {v.angular.x, v.angular.y, v.angular.z, uintBitsToFloat(v.stamp)});
 }
 
 template <typename Places>
@@ -122,7 +123,7 @@ TALUS_LANE void put_constraints(const CpuState& state, const std::uint32_t* plac
         put(cell, v.x, v.y, v.z, v.w);
     };
     put(0, uintBitsToFloat(c.body_a), uintBitsToFloat(c.body_b), uintBitsToFloat(c.manifold),
-        uintBitsToFloat(c.point_count));
+        uintBitsToFloat(c.counts));
     put_3(1, c.normal, c.friction);
     put_3(2, c.centre_a, c.restitution);
     put_3(3, c.centre_b, c.inverse_masses);
@@ -188,7 +189,7 @@ TALUS_LANE ContactConstraint choose(Mask m, const ContactConstraint& yes, const 
 inline void prepare_contacts(const CpuState& state, const ContactToPrepare* contacts, std::uint32_t count) {
     std::uint32_t places[k_lanes], manifolds[k_lanes], body_a[k_lanes], body_b[k_lanes], points[4][k_lanes];
     FloatVector hub_shares{};
-    UintVector colours{}, manifold_indices{};
+    UintVector colours{}, orders{}, manifold_indices{};
     for (int lane = 0; lane < k_lanes; ++lane) {
         const ContactToPrepare& contact = contacts[static_cast<std::uint32_t>(lane) < count ? lane : 0];
         const engine::Manifold& manifold = state.manifolds.data[contact.manifold];
@@ -198,6 +199,7 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
         body_b[lane] = manifold.body_b;
         hub_shares[lane] = contact.hub_share;
         colours[lane] = contact.colour;
+        orders[lane] = contact.order;
         for (std::uint32_t i = 0; i < 4; ++i)
             points[i][lane] = 4 * contact.manifold + i;
     }
@@ -207,10 +209,11 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     const Lanes inverse_mass_a = gather(state.velocities.data, body_a, 0).w;
     const Lanes inverse_mass_b = gather(state.velocities.data, body_b, 0).w;
 
-    ContactConstraint c = begin_constraint(manifold, ULanes(manifold_indices), ULanes(colours), Lanes(hub_shares),
-                                           inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, state.parameters);
+    ContactConstraint c =
+        begin_constraint(manifold, ULanes(manifold_indices), ULanes(colours), ULanes(orders), Lanes(hub_shares),
+                         inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, state.parameters);
     const auto has_point = [&](std::uint32_t i) __attribute__((always_inline)) {
-        return ULanes(i) < c.point_count;
+        return ULanes(i) < point_count_of(c.counts);
     };
     for (std::uint32_t i = 0; i < 4; ++i)
         c = choose(has_point(i), add_to_centre(c, points_at(state, points[i])), c);
@@ -492,7 +495,7 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t tick, 
         scatter(state.velocities.data, batch.offsets, 0, going_on & ~unusual,
                 {velocity.linear.x, velocity.linear.y, velocity.linear.z, velocity.inverse_mass});
         scatter(state.velocities.data, batch.offsets, 1, going_on & ~unusual,
-                {velocity.angular.x, velocity.angular.y, velocity.angular.z, velocity.reserved});
+                {velocity.angular.x, velocity.angular.y, velocity.angular.z, uintBitsToFloat(velocity.stamp)});
     }
     if (tick > 0) {
         put_deltas(state, batch.offsets, active & ~unusual, delta);

@@ -4,7 +4,7 @@
 // that colours and sub-steps need no launches; hubs cannot be solved there. args.z: 1 where the graph has not been made, as
 // it should be the last step's.
 // Reads: ColourOffsets, Counters.
-// Writes: Counters, Dispatches, Arrivals, ColourSubsteps (none yet).
+// Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.
 // Overflow: more colours or sub-steps than the host has launches for, and more manifolds, or manifolds of hubs, than it
 // has room for, are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by
@@ -17,7 +17,6 @@ layout(local_size_x = 64) in; // k_max_colours
 layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
-layout(std430) writeonly buffer ColourSubsteps { uint colour_substeps[]; };
 layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
 
 void main()
@@ -42,11 +41,8 @@ void main()
     uint on = did_not_fit == 0u ? 1u : 0u;
     uint count = launches ? colour_offsets[colour + 1u] - colour_offsets[colour] : 0u;
     dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
-    colour_substeps[colour] = 0u;
-    if (colour < k_teams) arrivals[k_team_arrivals + colour] = 0u;
     barrier(); // all have read the counters
     if (colour != 0u) return;
-    colour_substeps[k_overflow_colour] = 0u;
     uint group_count = launches ? count_groups(parameters.body_count) : parameters.body_count;
     dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);
     dispatches[k_dispatch_manifolds] = groups_for(on * awake_count, k_group_size);

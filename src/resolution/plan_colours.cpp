@@ -40,11 +40,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;
     counters[k_counter_launched_manifolds] = launches ? offsets[k_overflow_colour + 1] - offsets[0] : 0;
-    for (uint colour = 0; colour <= k_overflow_colour; ++colour)
-        state.colour_substeps[colour] = 0;
     state.arrivals[0] = 0;
-    for (uint team = 0; team < k_teams; ++team)
-        state.arrivals[k_team_arrivals + team] = 0;
     counters[k_counter_graph_was_due] = due ? 1 : 0;
     const bool is_next_due = on == 0 || counters[k_counter_graph_due] == k_due_twice;
     counters[k_counter_graph_due] = is_next_due ? 1 : 0;

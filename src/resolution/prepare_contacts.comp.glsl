@@ -2,11 +2,12 @@
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
 // args.x, args.y: the first pair that is wanted, and how many are.
 // Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, BodyColours, Velocities, Inertias.
-// Writes: Constraints, ToldLoads; ColourSubsteps, of what is launched.
+// Writes: Constraints, ToldLoads.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
+#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
@@ -28,7 +29,6 @@ layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
-layout(std430) buffer ColourSubsteps { uint colour_substeps[]; };
 layout(std430) buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 
@@ -45,19 +45,17 @@ float share_of_contact(Manifold manifold, uint pair, uint colour)
                         shares_of_hub(body_colours[body_word(hub, k_new_edges)], body_colours[body_word(hub, k_hub_word)]));
 }
 
+uint order_at(uint body, uint colour, uint place_earlier, uint place_last)
+{
+    return order_at_body(body_colours[body_word(body, k_used_low)], body_colours[body_word(body, k_used_high)], colour,
+                         place_earlier, place_last);
+}
+
 void tell_load(LoadBelow load, uint height)
 {
     if (load.mass == 0u) return;
     atomicAdd(told_loads[k_told_words * load.body + k_told_mass], load.mass);
     atomicMax(told_loads[k_told_words * load.body + k_told_height], height);
-}
-
-// In how many ticks the colour has a contact with a sub-step, where that differs. The least number is the rule, and not noted.
-void note_substeps(uint colour, uint traits, uint traits_of_bodies)
-{
-    if (counters[k_counter_multirate_islands] == 0u || (traits_of_bodies & k_trait_grouped) != 0u) return;
-    uint ticks = counters[k_counter_launched_substeps] >> slowness(traits);
-    if (ticks > parameters.least_substeps && colour_substeps[colour] < ticks) atomicMax(colour_substeps[colour], ticks);
 }
 
 void main()
@@ -72,8 +70,10 @@ void main()
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
     uint colour = colour_of_key(manifold_keys[index]);
+    uint order = order_at(manifold.body_a, colour, k_earlier_of_a, k_last_of_a) |
+                 order_at(manifold.body_b, colour, k_earlier_of_b, k_last_of_b);
     ContactConstraint c =
-        begin_constraint(manifold, manifold_index, colour, share_of_contact(manifold, manifold_index, colour),
+        begin_constraint(manifold, manifold_index, colour, order, share_of_contact(manifold, manifold_index, colour),
                          inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, parameters);
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
@@ -91,6 +91,5 @@ void main()
     }
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
     c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, parameters);
-    note_substeps(colour, c.traits, inertia_a.traits | inertia_b.traits);
     pack_ContactConstraint(constraints, index, c);
 }

@@ -20,6 +20,11 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
                         word(k_whole_load) - word(k_unshared_load), shares_of_hub(word(k_new_edges), word(k_hub_word)));
 }
 
+static uint order_at(const CpuState& state, uint body, uint colour, uint place_earlier, uint place_last) {
+    const uint* const words = &state.body_colours[body_word(body, 0)];
+    return order_at_body(words[k_used_low], words[k_used_high], colour, place_earlier, place_last);
+}
+
 static void raise_to(uint& word, uint value) {
     const std::atomic_ref highest(word);
     for (uint before = highest.load(); before < value && !highest.compare_exchange_weak(before, value);) {
@@ -32,15 +37,6 @@ void tell_load(const CpuState& state, const LoadBelow& load, uint height) {
     raise_to(told[k_told_height], height);
 }
 
-/// In how many ticks the colour has a contact with a sub-step, where that differs. The least number is the rule, and
-/// not noted.
-static void note_substeps(const CpuState& state, uint colour, const ContactConstraint& c) {
-    const uint of_bodies = state.inertias[c.body_a].traits | state.inertias[c.body_b].traits;
-    const uint ticks = state.counters[k_counter_launched_substeps] >> slowness(c.traits);
-    if ((of_bodies & k_trait_grouped) == 0 && ticks > state.parameters.least_substeps)
-        raise_to(state.colour_substeps[colour], ticks);
-}
-
 static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
     const uint lanes = lane_passes().lanes, manifold_count = state.counters[k_counter_manifold_count];
     const auto prepare_part = [&](uint part) {
@@ -50,12 +46,12 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
             const uint manifold = state.manifold_order[index];
             if (!is_among(manifold, launch.args[0], launch.args[1])) continue;
             const uint colour = colour_of_key(state.manifold_keys[index]);
-            contacts[count++] = {index, manifold, colour, share_of_contact(state, manifold, colour)};
+            const Manifold& of = state.manifolds[manifold];
+            const uint order = order_at(state, of.body_a, colour, k_earlier_of_a, k_last_of_a) |
+                               order_at(state, of.body_b, colour, k_earlier_of_b, k_last_of_b);
+            contacts[count++] = {index, manifold, colour, order, share_of_contact(state, manifold, colour)};
         }
         if (count > 0) lane_passes().prepare_contacts(state, contacts, count);
-        if (state.counters[k_counter_multirate_islands] == 0) return;
-        for (uint i = 0; i < count; ++i)
-            note_substeps(state, contacts[i].colour, state.constraints[contacts[i].index]);
     };
     state.parallel((manifold_count + lanes - 1) / lanes, prepare_part, k_parallel_grain / 4 / lanes);
 }

@@ -97,10 +97,13 @@ const Kernel& persistent_solver(const StepPlan& plan) {
 void solve(Device& device, const StepPlan& plan) {
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
     const Kernel& persistent = persistent_solver(plan);
-    if (plan.persistent_groups > 0 && plan.needs_launches())
+    if (plan.persistent_groups > 0 && plan.needs_launches()) {
+        if (plan.may_be_multirate())
+            device.grow(BufferId::FastColours, sizeof(uint) * k_fast_colour_words * plan.body_count);
         device.run({.kernel = persistent,
                     .items = plan.persistent_groups * persistent.items_a_group,
                     .overlaps_next = plan.in_groups});
+    }
     if (plan.in_groups) {
         const Kernel& of_small = plan.bounces ? solve_bouncing_islands : solve_islands;
         const Kernel& of_large = plan.bounces ? solve_bouncing_groups : solve_island_groups;

@@ -27,7 +27,7 @@ BodyVelocity load_velocity(uint slot)
     velocity.linear = linear_and_inverse_mass[slot].xyz;
     velocity.inverse_mass = linear_and_inverse_mass[slot].w;
     velocity.angular = vec3(angular[3u * slot], angular[3u * slot + 1u], angular[3u * slot + 2u]);
-    velocity.reserved = 0.0;
+    velocity.stamp = 0u;
     return velocity;
 }
 
@@ -78,9 +78,11 @@ void store_delta(uint body, BodyDelta delta)
 const bool k_hubs = false; // their islands are solved with a launch for each colour
 void put_change(uint index, HubChange change) {}
 
+bool is_own(BodyInertia inertia) { return true; }
+BodyVelocity load_settled_velocity(uint slot, uint its_traits) { return load_velocity(slot); }
+
 #include "resolution/contact_passes.glsl"
 #include "resolution/body_passes.glsl"
-const bool k_waits_are_long = false;
 const bool k_notes_unlike = false;
 #include "resolution/solve_substeps.glsl"
 
@@ -131,7 +133,10 @@ void find_colours(uint group)
 
 uint own_bodies; // a bit for each
 
-uint worker() { return gl_LocalInvocationID.x; }
+void deal_manifolds() {}
+uint first_own() { return min(colour_offsets[0] + gl_LocalInvocationID.x, end_index); }
+uint after(uint index) { return min(index + gl_WorkGroupSize.x, end_index); }
+bool is_first_worker() { return gl_LocalInvocationID.x == 0u; }
 
 void wait_for_workers()
 {
@@ -139,18 +144,12 @@ void wait_for_workers()
     barrier();
 }
 
-uint own_begin;
-uint own_end; // the overflow set is the first invocation's, one after the other
-
-void deal_manifolds()
+void pass_over_contacts(uint pass, uint tick, bool ends_tick)
 {
-    own_begin = min(colour_offsets[0] + worker(), end_index);
-    own_end = worker() == 0u ? colour_offsets[k_overflow_colour + 1u] : end_index;
+    come_by = 0u;
+    uint first = first_at(tick, first_own());
+    pass_over_colours(first_colour, first, first, pass, tick);
 }
-
-uint settled(uint index) { return index < own_end ? index : k_none; }
-uint first_own() { return settled(own_begin); }
-uint after(uint index) { return index < end_index ? min(index + gl_WorkGroupSize.x, end_index) : index + 1u; }
 
 void integrate_own_bodies(uint tick)
 {
@@ -159,13 +158,9 @@ void integrate_own_bodies(uint tick)
     }
 }
 
-bool has_colour(uint colour, uint tick) { return true; }
-bool is_own_colour(uint colour) { return true; }
-void arrive(uint colour) {}
-void wait_for_colour(uint colour) { wait_for_workers(); }
-void note_pass(uint colour) {}
 void finish_colour(uint colour, uint tick) {}
 void wait_for_finish() {}
+void note_unlike() {}
 
 void solve_group(uint group)
 {

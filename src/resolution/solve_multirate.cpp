@@ -5,6 +5,6 @@
 
 namespace talus::engine {
 
-const Kernel solve_multirate{"resolution/solve_multirate", solve_persistent_on_cpu, 384};
+const Kernel solve_multirate{"resolution/solve_multirate", solve_persistent_on_cpu, 256};
 
 } // namespace talus::engine

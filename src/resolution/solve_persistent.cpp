@@ -26,6 +26,6 @@ void solve_persistent_on_cpu(CpuState& state, const Launch& launch) {
     for_each_pass(last, p.iterations, p.relax == 1, integrate, over_contacts);
 }
 
-const Kernel solve_persistent{"resolution/solve_persistent", solve_persistent_on_cpu, 384};
+const Kernel solve_persistent{"resolution/solve_persistent", solve_persistent_on_cpu, 256};
 
 } // namespace talus::engine

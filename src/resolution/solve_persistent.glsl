@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 // All sub-steps of what no work group solves alone, in one launch: its groups stay until the end and wait for each other
-// after every colour. That costs less than a launch does, the code is fetched once, and where there are no more manifolds
-// than invocations each is loaded once. For worlds in which nothing bounces.
+// after every pass, and within it contact by contact (solve_in_order.glsl). That costs less than a launch for each colour does, the
+// code is fetched once, and where there are no more manifolds than invocations each is loaded once. For worlds in which nothing
+// bounces.
 // Before this file the kernel defines k_multirate_islands, as for contact_passes.glsl.
 // args.x: 1 to count how many groups can run at a time instead.
-// Reads: Counters, ColourOffsets, ColourSubsteps, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
+// Reads: Counters, ColourOffsets, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
-// HubChanges, Arrivals.
+// HubChanges, FastColours, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; Arrivals as plan_colours leaves it.
 // Overflow: none; does nothing after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
+#include "resolution/contact_order.shared.glsl"
+#include "resolution/colouring.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/multirate.shared.glsl"
@@ -20,21 +23,24 @@
 #include "resolution/hub.shared.glsl"
 #include "resolution/hit.shared.glsl"
 
-layout(local_size_x = 384) in; // fewer leave waits unfilled; more have too few registers
+layout(local_size_x = 256) in; // more have too few registers
 
 layout(std430) readonly buffer ColourOffsets { uint stored_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
-layout(std430) readonly buffer ColourSubsteps { uint colour_substeps[]; };
 layout(std430) readonly buffer Hubs { uint hubs[]; };
 layout(std430) readonly buffer LaunchedBodies { uint launched_bodies[]; };
 layout(std430) coherent buffer HubChanges { HubChange hub_changes[]; };
-layout(std430) coherent buffer Velocities { BodyVelocityCells velocities[]; };
+layout(std430) coherent volatile buffer Velocities { BodyVelocityCells velocities[]; };
 
 // As in ColourOffsets: a load for each colour that is not in use took as long as the passes did, where there are hubs.
 shared uint colour_offsets[k_max_colours + 2u];
 
 uint slot_of(uint body) { return body; }
-void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
+void store_velocity(uint body, BodyVelocity velocity)
+{
+    velocity.stamp = 0u; // see solve_in_order.glsl
+    velocities[body] = pack(velocity);
+}
 
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
 BodyVelocity load_velocity(uint body)
@@ -64,14 +70,19 @@ HubChange load_change(uint i)
 }
 
 #include "resolution/contact_passes.glsl"
-#include "resolution/body_passes.glsl"
 #include "resolution/move_hubs.glsl"
 uint meeting_groups() { return gl_NumWorkGroups.x; }
 #include "primitives/grid_barrier.glsl"
-const bool k_waits_are_long = true;
 const bool k_notes_unlike = true;
 #include "resolution/solve_substeps.glsl"
-#include "resolution/solve_teams.glsl"
+#include "resolution/solve_in_order.glsl"
+
+bool moves_hub = false; // the present body is a hub, and the invocation its keeper
+
+bool is_own(BodyInertia inertia) { return moves_hub ? is_launched(inertia) : is_in_launched_bodies(inertia); }
+
+#include "resolution/body_passes.glsl"
+
 
 // Groups are adding up what contacts have done to hubs: nobody else may read a hub's velocity before the next wait.
 bool hubs_move = false;
@@ -104,27 +115,25 @@ void integrate_own_bodies(uint tick)
     uint listed = counters[k_counter_launched_bodies];
     bool looks_at_all = 2u * listed > parameters.body_count;
     uint end = looks_at_all ? parameters.body_count : listed;
-    uint next = worker();
+    uint next = worker;
     uint mark = 1u;
     while (hub < counters[k_counter_hub_count] || next < end) {
         uint body;
-        bool is_own;
-        if (hub < counters[k_counter_hub_count]) {
+        moves_hub = hub < counters[k_counter_hub_count];
+        if (moves_hub) {
             body = hubs[hub];
-            is_own = is_launched(unpack(inertias[body]));
             hub += gl_NumWorkGroups.x;
         } else {
             uint place = next;
             uint its_mark = mark;
-            next += gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+            next += workers();
             mark = mark << 1u | mark >> 31u;
             if (!most_have_substep(tick) && (fast_marks & its_mark) == 0u) continue;
             body = looks_at_all ? place : launched_bodies[place];
-            BodyInertia inertia = unpack(inertias[body]);
-            is_own = is_in_launched_bodies(inertia);
-            if (k_multirate_islands && (1u << slowness(inertia.traits)) != ticks_apart) fast_marks |= its_mark;
+            if (k_multirate_islands && (1u << slowness(unpack(inertias[body]).traits)) != ticks_apart) fast_marks |= its_mark;
         }
-        if (is_own) integrate_body(body, tick);
+        if (k_multirate_islands && tick == 0u) forget_fast_colours(body);
+        integrate_body(body, tick);
     }
 }
 

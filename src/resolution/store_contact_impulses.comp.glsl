@@ -15,6 +15,7 @@
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
 #include "resolution/island.shared.glsl"
+#include "resolution/contact_order.shared.glsl"
 #include "resolution/contact_constraint.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -36,7 +37,7 @@ void main()
     ContactConstraint c = unpack_ContactConstraint(constraints, index);
     vec4 impulse = vec4(0.0);
     for (uint i = 0u; i < 4u; ++i) {
-        if (i >= c.point_count) continue;
+        if (i >= point_count_of(c.counts)) continue;
         float of_step = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], c.substeps);
         manifold_points[4u * c.manifold + i].cell_2.w = floatBitsToUint(of_step); // its normal_impulse
         impulse[i] = of_step;

@@ -21,7 +21,7 @@ namespace talus::engine {
 #define TALUS_BUFFERS(X)                                                                                               \
     /* bodies */                                                                                                       \
     X(Poses, poses, BodyPose, "fffuffff", State)                                                                       \
-    X(Velocities, velocities, BodyVelocity, "ffffffff", State)                                                         \
+    X(Velocities, velocities, BodyVelocity, "fffffffu", State)                                                         \
     X(Shapes, shapes, BodyShape, "fffu", State)                                                                        \
     X(Properties, properties, BodyProperties, "fffffffffuuu", State)                                                   \
     X(Loads, loads, BodyLoad, "fffuffff", State)                                                                       \
@@ -66,7 +66,6 @@ namespace talus::engine {
     X(SortedManifoldKeys, sorted_manifold_keys, uint, "u", Scratch)                                                    \
     X(SortedManifoldOrder, sorted_manifold_order, uint, "u", Scratch)                                                  \
     X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
-    X(ColourSubsteps, colour_substeps, uint, "u", Result)                                                              \
     X(LaunchedBodies, launched_bodies, uint, "u", Scratch)                                                             \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
@@ -74,6 +73,7 @@ namespace talus::engine {
     X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffufffuffffffffffffffffffffffffffffffffffffffff", \
       Result)                                                                                                          \
     X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
+    X(FastColours, fast_colours, uint, "u", Scratch)                                                                   \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
     X(HubChanges, hub_changes, HubChange, "fffufffu", Result)                                                          \
     X(Arrivals, arrivals, uint, "u", Scratch)                                                                          \

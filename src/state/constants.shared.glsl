@@ -131,9 +131,7 @@ const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
 // Of Arrivals, see primitives/grid_barrier.glsl.
-const uint k_team_arrivals = 3u;
-const uint k_teams = 4u;
-const uint k_arrival_words = k_team_arrivals + k_teams;
+const uint k_arrival_words = 3u;
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
 const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island
 // In a larger world a work group solves several islands: those that begin within a window of so many bodies, in the order

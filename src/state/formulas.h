@@ -44,6 +44,7 @@ namespace talus::engine {
 
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/contact_order.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 

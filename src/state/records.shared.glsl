@@ -16,7 +16,7 @@ struct BodyVelocity {
     vec3 linear;        // m/s, world
     float inverse_mass; // 1/kg; 0 for static, kinematic and frozen bodies
     vec3 angular;       // rad/s, world
-    float reserved;
+    uint stamp;         // 0 but within a persistent launch: see resolution/solve_in_order.glsl
 };
 
 // 16 bytes
@@ -144,7 +144,7 @@ struct ContactConstraint {
     uint body_a;
     uint body_b;
     uint manifold;
-    uint point_count;
+    uint counts; // of its points, and of what is solved before it at each body: see resolution/contact_counts.shared.glsl
     vec3 normal;
     float friction;
     vec3 centre_a; // m, the middle of the points from A's centre

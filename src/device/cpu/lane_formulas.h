@@ -41,6 +41,7 @@ using engine::Parameters; // the same for all lanes
 #include "resolution/multirate.shared.glsl"
 
 #include "resolution/body.shared.glsl"
+#include "resolution/contact_order.shared.glsl"
 #include "resolution/hub.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 

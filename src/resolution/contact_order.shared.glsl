@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// How many contacts of its two bodies a pass solves before a contact, and whether it is their last one: what it has to know
+// where contacts wait for each other one by one, and not for whole colours. Colours are solved in ascending order, and a body has
+// one contact of each. Those of hubs, and the overflow set, follow in an order of their own.
+
+// ContactConstraint::counts: the points in the low bits, then these.
+const uint k_point_bits = 3u;
+const uint k_earlier_bits = 6u;
+const uint k_earlier_of_a = k_point_bits;
+const uint k_earlier_of_b = k_earlier_of_a + k_earlier_bits;
+const uint k_last_of_a = k_earlier_of_b + k_earlier_bits;
+const uint k_last_of_b = k_last_of_a + 1u;
+
+// BodyInertia::traits, from this bit on: how many contacts the body has in all colours but those of hubs.
+const uint k_contacts_of_body = 9u;
+
+inline uint contacts_of_body(uint traits) { return (traits >> k_contacts_of_body) & ((1u << k_earlier_bits) - 1u); }
+
+inline uint point_count_of(uint counts) { return counts & ((1u << k_point_bits) - 1u); }
+inline uint earlier_of(uint counts, uint place) { return (counts >> place) & ((1u << k_earlier_bits) - 1u); }
+inline bool is_last_of(uint counts, uint place) { return ((counts >> place) & 1u) != 0u; }

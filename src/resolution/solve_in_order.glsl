@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// A pass in which contacts wait for each other one by one: each for those of earlier colours at its two bodies, and for no other.
+// Where it matters that is the order of colours, and so are the bits; but a wait among all groups for each colour takes longer than
+// a contact needs to see what the one before it has stored.
+//
+// A velocity that is stored in such a pass has a stamp: how many contacts of the body have been solved in it, mixed with the number
+// of the pass and with all bits of the velocity. So no barrier has to stand between the two: what is loaded while it is being
+// stored, in parts, does not fit its stamp. What is stored otherwise has none, 0.
+//
+// What a GPU runs in step is at manifolds of one colour at a time, none of which waits for another one.
+//
+// For solve_persistent.glsl, behind solve_substeps.glsl and grid_barrier.glsl.
+
+// ---- stamps ----
+
+uint passes_in_order = 0u; // so far
+
+uint rotated(uint word, uint bits) { return word << bits | word >> (32u - bits); }
+
+// Odd, and for each number another one. The factor (Knuth's, of multiplicative hashing) has the numbers differ in many bits, as
+// velocities in the last one may, and then the two changes made up for each other.
+uint stamp_of(BodyVelocityCells v, uint number)
+{
+    uint linear = v.cell_0.x ^ rotated(v.cell_0.y, 5u) ^ rotated(v.cell_0.z, 10u) ^ rotated(v.cell_0.w, 15u);
+    uint angular = rotated(v.cell_1.x, 20u) ^ rotated(v.cell_1.y, 25u) ^ rotated(v.cell_1.z, 30u);
+    return (linear ^ angular ^ number * 0x9e3779b1u) << 1u | 1u;
+}
+
+// Where so many contacts of a body have been solved in this pass.
+uint number_after(uint contacts) { return k_max_colours * passes_in_order + contacts; }
+
+// Whether the velocity is the one that follows `earlier` contacts. A pass begins behind a wait of all.
+bool is_after(BodyVelocityCells velocity, uint earlier)
+{
+    return earlier == 0u || velocity.cell_1.w == stamp_of(velocity, number_after(earlier));
+}
+
+// `is_end`: no pass over the body follows. What contacts cannot push nobody waits for.
+void store_in_order(uint body, uint its_traits, BodyVelocity velocity, uint earlier, bool is_end)
+{
+    if ((its_traits & k_trait_movable) == 0u) return;
+    BodyVelocityCells stored = pack(velocity);
+    stored.cell_1.w = is_end ? 0u : stamp_of(stored, number_after(earlier + 1u));
+    velocities[body] = stored;
+}
+
+// ---- the deal ----
+//
+// Manifolds are dealt by 64 of a colour, with the rest of it as the last 64, to that many workers next to each other: what a GPU runs
+// in step is no larger. Groups take turns, as there are often fewer manifolds than invocations, and all multiprocessors are to have
+// some. A place of the deal has a manifold or is empty.
+
+const uint k_dealt_together = 64u;
+
+uint worker;
+uint workers() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x; }
+bool is_first_worker() { return worker == 0u; }
+
+shared uint first_places[k_max_colours + 1u]; // of each colour; then the end
+uint worker_colour;                           // of the worker's present place
+
+uint count_of(uint colour) { return colour_offsets[colour + 1u] - colour_offsets[colour]; }
+uint places_of(uint colour) { return (count_of(colour) + k_dealt_together - 1u) / k_dealt_together * k_dealt_together; }
+
+void deal_manifolds()
+{
+    uint me = gl_LocalInvocationID.x;
+    worker = (me / k_dealt_together * gl_NumWorkGroups.x + gl_WorkGroupID.x) * k_dealt_together + me % k_dealt_together;
+    for (uint colour = me; colour <= k_max_colours; colour += gl_WorkGroupSize.x) {
+        uint places = 0u;
+        for (uint before = first_colour; before < colour; ++before)
+            places += places_of(before);
+        first_places[colour] = places;
+    }
+    barrier();
+}
+
+// Of later places one after the other.
+uint manifold_at(uint place)
+{
+    while (first_places[worker_colour + 1u] <= place)
+        ++worker_colour;
+    uint i = place - first_places[worker_colour];
+    return i < count_of(worker_colour) ? colour_offsets[worker_colour] + i : k_none;
+}
+
+// At this place of the worker's or a later one.
+uint manifold_from(uint place)
+{
+    for (; place < first_places[k_max_colours]; place += workers()) {
+        uint index = manifold_at(place);
+        if (index != k_none) return index;
+    }
+    return end_index;
+}
+
+uint after(uint index)
+{
+    return manifold_from(index - colour_offsets[worker_colour] + first_places[worker_colour] + workers());
+}
+
+// ---- ticks in which few have a sub-step ----
+//
+// In those the order at a body is that of its contacts which have one. Of a tick which 2^t is the highest power to divide, these
+// are the contacts for which a tick in 2^t or in fewer begins a sub-step.
+
+layout(std430) coherent buffer FastColours { uint fast_colours[]; };
+
+uint ticks_power(uint tick) { return uint(findLSB(tick)); }
+uint slowest_power() { return uint(findLSB(ticks_apart)); }
+uint fast_word(uint body, uint power, uint word) { return k_fast_colour_words * body + 2u * power + word; }
+
+void forget_fast_colours(uint body)
+{
+    for (uint power = 0u; power < slowest_power(); ++power) {
+        fast_colours[fast_word(body, power, 0u)] = 0u;
+        fast_colours[fast_word(body, power, 1u)] = 0u;
+    }
+}
+
+void note_fast_colour(uint body, uint its_traits, uint colour)
+{
+    if ((its_traits & k_trait_movable) == 0u) return;
+    for (uint power = slowness(traits); power < slowest_power(); ++power)
+        atomicOr(fast_colours[fast_word(body, power, colour < 32u ? 0u : 1u)], 1u << (colour & 31u));
+}
+
+uint count_earlier_fast(uint body, uint its_traits, uint colour, uint power)
+{
+    if ((its_traits & k_trait_movable) == 0u) return 0u;
+    return count_earlier(fast_colours[fast_word(body, power, 0u)], fast_colours[fast_word(body, power, 1u)], colour);
+}
+
+void note_unlike()
+{
+    if (!k_multirate_islands || index_in_hand >= colour_offsets[k_first_hub_colour]) return;
+    note_fast_colour(body_a, traits, worker_colour);
+    note_fast_colour(body_b, traits >> k_traits_of_b, worker_colour);
+}
+
+// ---- a pass ----
+
+uint earlier_a; // contacts of its bodies that come before the one in hand
+uint earlier_b;
+
+void find_earlier(uint tick)
+{
+    if (most_have_substep(tick)) {
+        earlier_a = earlier_of(counts, k_earlier_of_a);
+        earlier_b = earlier_of(counts, k_earlier_of_b);
+    } else {
+        uint power = ticks_power(tick);
+        earlier_a = count_earlier_fast(body_a, traits, worker_colour, power);
+        earlier_b = count_earlier_fast(body_b, traits >> k_traits_of_b, worker_colour, power);
+    }
+}
+
+BodyVelocityCells cells_a; // the velocity as it was at the last look
+BodyVelocityCells cells_b;
+
+// Where one group is alone, its invocations meet after each look: there are implementations that run them one after the other.
+bool is_alone() { return gl_NumWorkGroups.x == 1u; }
+
+bool is_turn()
+{
+    cells_a = velocities[body_a];
+    cells_b = velocities[body_b];
+    return is_after(cells_a, earlier_a) && is_after(cells_b, earlier_b);
+}
+
+const uint k_looks_between = 1024u; // looks at whether somebody has given up
+
+// Whether it is the turn of the contact in hand.
+bool wait_for_turn()
+{
+    uint looks = 0u;
+    while (!is_turn()) {
+        if (is_alone()) return false;
+        ++looks;
+        if (looks == k_most_polls) give_up();
+        if (looks % k_looks_between == 0u && have_given_up()) return true;
+    }
+    return true;
+}
+
+void pass_in_turn(uint pass, uint index, PassTarget target)
+{
+    VelocityPair before;
+    before.a = unpack(cells_a);
+    before.b = unpack(cells_b);
+    VelocityPair after = solve_constraint(pass, index, target, before);
+    bool is_end = pass == k_relax;
+    if (k_multirate_islands && !is_end) {
+        after.a = change_in_part(before.a, after.a, part_a);
+        after.b = change_in_part(before.b, after.b, part_b);
+    }
+    store_in_order(body_a, traits, after.a, earlier_a, is_end && is_last_of(counts, k_last_of_a));
+    store_in_order(body_b, traits >> k_traits_of_b, after.b, earlier_b, is_end && is_last_of(counts, k_last_of_b));
+}
+
+shared uint is_left[3]; // of the present round of looks, of the one before and of the next
+uint rounds = 0u;
+
+// Whether the invocation goes on: as long as it has something to do itself, or one that it meets has.
+bool goes_on(bool has_more)
+{
+    if (!is_alone()) return has_more;
+    if (has_more) is_left[rounds % 3u] = 1u;
+    if (gl_LocalInvocationID.x == 0u) is_left[(rounds + 1u) % 3u] = 0u;
+    memoryBarrierBuffer();
+    barrier();
+    return is_left[rounds++ % 3u] != 0u;
+}
+
+bool is_settled = true; // all have waited for each other since the last pass
+
+// If not, all contacts of the body have had a sub-step in it.
+BodyVelocity load_settled_velocity(uint body, uint its_traits)
+{
+    BodyVelocityCells cells = velocities[body];
+    if (is_settled) return unpack(cells);
+    uint contacts = contacts_of_body(its_traits);
+    for (uint looks = 1u; looks < k_most_polls && !is_after(cells, contacts); ++looks) {
+        if (looks % k_looks_between == 0u && have_given_up()) return unpack(cells);
+        cells = velocities[body];
+    }
+    if (!is_after(cells, contacts)) give_up();
+    return unpack(cells);
+}
+
+void pass_over_contacts(uint pass, uint tick, bool ends_tick)
+{
+    ++passes_in_order;
+    uint end = first_places[k_first_hub_colour];
+    uint place = worker;
+    uint first = k_none; // of the worker's manifolds; the next pass begins with it
+    bool is_ready = false;
+    PassTarget target;
+    come_by = 0u;
+    worker_colour = first_colour;
+    while (goes_on(place < end)) {
+        if (place >= end) continue;
+        uint index = manifold_at(place);
+        if (index != k_none && has_substep(index, tick)) {
+            if (!is_ready) {
+                take_in_hand(index);
+                if (pass == k_warm_start)
+                    note_whether_unlike();
+                else
+                    target = target_of_pass(pass);
+                find_earlier(tick);
+                is_ready = true;
+                if (first == k_none) first = index;
+            }
+            if (!wait_for_turn()) continue;
+            pass_in_turn(pass, index, target);
+            is_ready = false;
+        }
+        place += workers();
+        ++come_by;
+    }
+    take_in_hand(first);
+    bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
+    is_settled = !are_all || !ends_tick || ticks_apart > 1u;
+    if (is_settled || is_alone()) wait_for_workers();
+    if (are_all) return;
+    uint index = first_at(tick, manifold_from(place));
+    pass_over_colours(k_first_hub_colour, index, first == k_none ? index : first, pass, tick);
+}
