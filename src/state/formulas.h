@@ -27,6 +27,7 @@ namespace talus::engine {
 #include "broad_phase/tree.shared.glsl"
 
 #include "resolution/contact_frame.shared.glsl"
+#include "resolution/contact_order.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/softness.shared.glsl"
 
@@ -44,7 +45,6 @@ namespace talus::engine {
 
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 

@@ -35,13 +35,13 @@ using engine::Parameters; // the same for all lanes
 #include "broad_phase/oriented_box.shared.glsl"
 
 #include "resolution/contact_frame.shared.glsl"
+#include "resolution/contact_order.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/softness.shared.glsl"
 
 #include "resolution/multirate.shared.glsl"
 
 #include "resolution/body.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/hub.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 
