@@ -29,7 +29,7 @@ constexpr std::size_t k_most_pending = k_ring_size - 1;
 constexpr uint k_most_substeps_of_large = 32;
 // Manifolds and iterations an invocation of the persistent launch: with more, launches for each colour are long enough
 // to be worth it, and all in one might be too long for a watchdog.
-constexpr uint k_most_manifolds_each = 64;
+constexpr uint k_most_manifolds_each = 96;
 // Bodies an invocation of it, where it had nothing to do of late.
 constexpr uint k_most_bodies_each = 32;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.

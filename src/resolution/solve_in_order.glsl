@@ -214,7 +214,7 @@ bool goes_on(bool has_more)
 
 bool is_settled = true; // all have waited for each other since the last pass
 
-// If not, all contacts of the body have had a sub-step in it.
+// If not, all contacts of the body have had a sub-step in it, and where the body is none that contacts push, it does not move.
 BodyVelocity load_settled_velocity(uint body, uint its_traits)
 {
     BodyVelocityCells cells = velocities[body];
@@ -261,7 +261,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     }
     take_in_hand(first);
     bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
-    is_settled = !are_all || !ends_tick || ticks_apart > 1u;
+    is_settled = !are_all || !ends_tick || ticks_apart > 1u || args.y == 1u;
     if (is_settled || is_alone()) wait_for_workers();
     if (are_all) return;
     uint index = first_at(tick, manifold_from(place));

@@ -4,7 +4,7 @@
 // code is fetched once, and where there are no more manifolds than invocations each is loaded once. For worlds in which nothing
 // bounces.
 // Before this file the kernel defines k_multirate_islands, as for contact_passes.glsl.
-// args.x: 1 to count how many groups can run at a time instead.
+// args.x: 1 to count how many groups can run at a time instead. args.y: 1 where what contacts cannot push may move.
 // Reads: Counters, ColourOffsets, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
 // HubChanges, FastColours, Arrivals.
@@ -23,7 +23,7 @@
 #include "resolution/hub.shared.glsl"
 #include "resolution/hit.shared.glsl"
 
-layout(local_size_x = 256) in; // more have too few registers
+layout(local_size_x = 256) in; // more have too few registers, and a hub takes k_hub_group
 
 layout(std430) readonly buffer ColourOffsets { uint stored_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
