@@ -280,10 +280,13 @@ TEST_P(Paths, a_kinematic_body_may_belong_to_several_islands) {
     for (int i = 0; i < 12; ++i)
         bodies.push_back(box_at({2.0f * static_cast<float>(i % 4) - 3.0f, 1.0f + static_cast<float>(i / 4), 0.0f}));
     EngineRun small(options_on(GetParam()), bodies), large(options_on(GetParam()), bodies);
-    for (int i = 0; i < 40; ++i) {
+    EngineRun persistent(options_on(GetParam()), bodies);
+    for (std::size_t i = 0; i < 40; ++i) {
         small.step();
         large.step_in_many_launches();
+        persistent.step_persistently(false, k_numbers_of_groups[i % k_numbers_of_groups.size()]);
         ASSERT_TRUE(small.motion() == large.motion()) << "step " << i;
+        ASSERT_TRUE(persistent.motion() == large.motion()) << "step " << i;
     }
 }
 
