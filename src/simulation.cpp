@@ -319,6 +319,7 @@ StepPlan Simulation::plan_in_launches(const Population& population) const {
     now.in_groups = (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
     now.singles = plan.singles && now.has_groups();
     now.bounces = population.some_bounce;
+    now.kinematic = population.some_kinematic;
     now.sleeping = settings.sleeping;
     now.waking = settings.sleeping ? population.waking : Waking::None;
     if (settings.solve_order == SolveOrder::Sequential) now.overflow_count = k_none; // all

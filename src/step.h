@@ -51,8 +51,9 @@ struct StepPlan {
     uint substep_capacity = 1; ///< sub-steps, or ticks, that get launches: some, until it is known that none are needed
     uint iterations = 0;
     bool relax = false;
-    bool bounces = false;  ///< some body has a restitution above 0
-    bool sleeping = false; ///< islands may sleep
+    bool bounces = false;   ///< some body has a restitution above 0
+    bool kinematic = false; ///< some body moves as its caller says, whatever it touches
+    bool sleeping = false;  ///< islands may sleep
     Waking waking = Waking::None;
     ContactWatch watch = ContactWatch::None;
     uint report_room = k_none; ///< contact events that leave with the step

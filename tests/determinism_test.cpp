@@ -232,6 +232,50 @@ TEST_P(Paths, one_persistent_launch_gives_the_bits_of_many) {
     }
 }
 
+/// Velocities that are no numbers freeze bodies when they are moved, and forces that are none when they are to move.
+enum class Cause { Velocity, Force };
+
+template <typename Record> void make_infinite(EngineRun& run, engine::BufferId buffer, glm::vec3 Record::*vector) {
+    std::vector<Record> records = run.read<Record>(buffer, run.table.slot_count());
+    for (const engine::uint body : {2u, 6u, 11u})
+        (records[body].*vector).x = std::numeric_limits<float>::infinity();
+    run.simulation.write(buffer, 0, std::span<const Record>(records));
+}
+
+void freeze_some(EngineRun& run, Cause cause) {
+    if (cause == Cause::Velocity)
+        make_infinite(run, engine::BufferId::Velocities, &engine::BodyVelocity::linear);
+    else
+        make_infinite(run, engine::BufferId::Loads, &engine::BodyLoad::force);
+}
+
+TEST_P(Paths, frozen_bodies_give_the_bits_of_many_launches_in_a_persistent_one) {
+    std::vector<BodyDefinition> bodies{ground()};
+    for (int i = 0; i < 12; ++i)
+        for (int level = 0; level < 4; ++level)
+            bodies.push_back(box_at({2.5f * static_cast<float>(i) + 0.1f * static_cast<float>(level),
+                                     0.5f + 0.99f * static_cast<float>(level), 0.0f}));
+    Settings soft;
+    soft.substeps = soft.max_substeps = 2;
+    Settings without_relax_pass = soft;
+    without_relax_pass.stabilisation = Stabilisation::Baumgarte;
+    without_relax_pass.iterations = 3;
+    for (const Settings& settings : {soft, without_relax_pass}) {
+        for (const Cause cause : {Cause::Velocity, Cause::Force}) {
+            SCOPED_TRACE(static_cast<int>(cause));
+            EngineRun one(options_on(GetParam()), bodies, settings), many(options_on(GetParam()), bodies, settings);
+            for (std::size_t i = 0; i < k_numbers_of_groups.size(); ++i) {
+                if (i == 1) freeze_some(one, cause), freeze_some(many, cause);
+                one.step_persistently(false, k_numbers_of_groups[i]);
+                many.step_in_many_launches();
+                ASSERT_TRUE(one.motion() == many.motion()) << "step " << i;
+            }
+            EXPECT_EQ(one.counter(engine::k_counter_frozen_bodies), 3u);
+            EXPECT_EQ(one.counter(engine::k_counter_did_not_fit), 0u);
+        }
+    }
+}
+
 TEST_P(Paths, gpus_solve_large_islands_in_one_launch) {
     EngineRun run(options_on(GetParam()), many_islands(0.0f));
     engine::Device& device = run.simulation.state_device();

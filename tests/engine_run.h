@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "body_table.h"
 #include "parameters.h"
 #include "resolution/resolution.h"
@@ -14,8 +16,8 @@
 
 namespace talus::tests {
 
-/// Of a persistent launch, where that many run side by side: all there are, and so few that
-/// invocations have many contacts each.
+/// Of a persistent launch, where that many run side by side: all there are, and so few that invocations have many
+/// contacts each.
 inline constexpr std::array<engine::uint, 5> k_numbers_of_groups{engine::k_none, 1, 2, 3, 5};
 
 class EngineRun {
@@ -57,6 +59,9 @@ public:
         const engine::uint groups = simulation.state_device().resident_groups(engine::persistent_solver(plan));
         plan.persistent_groups = std::max(std::min(groups, most_groups), least_groups);
         step_as(plan);
+        if (counter(engine::k_counter_did_not_fit) != 0) return;
+        for (const auto& velocity : read<engine::BodyVelocity>(engine::BufferId::Velocities, table.slot_count()))
+            EXPECT_EQ(velocity.stamp, 0u) << "stamps are of the launch alone";
     }
 
     /// A step as it is made on hardware, also on a renderer in software: a work group for each island of a small world,

@@ -2,7 +2,7 @@
 // What a sub-step does to one body. Before this file the kernel defines slot_of, store_velocity, load_delta and
 // k_multirate_islands, as for contact_passes.glsl, and
 //   bool is_own(BodyInertia inertia), whether the kernel solves such a body
-//   BodyVelocity load_settled_velocity(uint slot, uint its_traits), once all contacts of the sub-step before have been passed over
+//   BodyVelocity load_settled_velocity(uint slot, uint its_traits), once all contacts of the sub-step before are passed over
 //   void store_delta(uint body, BodyDelta delta)
 // and it declares Properties, Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
@@ -14,20 +14,19 @@ layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 // forces: between the two nothing happens. A body whose sub-steps are all done is left alone.
 void integrate_body(uint body, uint tick)
 {
-    // All at once: loads behind a decision would wait for what it is made from.
     BodyInertia inertia = unpack(inertias[body]);
     BodyShape shape = unpack(shapes[body]);
+    uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
+    if (substep > inertia.substeps || !is_own(inertia) || !is_mover(shape)) return;
+    // All at once: loads behind a decision wait for what it is made from.
     BodyPose pose = unpack(poses[body]);
     BodyDelta delta = load_delta(body);
     BodyWarmStart warm = load_warm_start(body);
     BodyProperties its_properties = unpack(properties[body]);
     BodyLoad load = unpack(loads[body]);
-    uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
-    bool is_done = substep > inertia.substeps || (pose.flags & k_body_frozen) != 0u;
-    if (is_done || !is_own(inertia) || !is_mover(shape)) return;
+    if ((pose.flags & k_body_frozen) != 0u) return;
     BodyVelocity velocity = load_settled_velocity(slot_of(body), inertia.traits);
     float h = substep_length(inertia.substeps, parameters);
-    BodyVelocity found = velocity;
     if (substep > 0u) {
         BodyVelocity limited = limit_speeds(velocity, parameters);
         warm = leave_out(warm, velocity, limited);
@@ -36,10 +35,7 @@ void integrate_body(uint body, uint tick)
         delta = integrate_position(delta, warm, velocity, falling, h);
         store_delta(body, delta);
     }
-    if (substep == inertia.substeps) {
-        if (parameters.relax == 0u) store_velocity(slot_of(body), found); // no pass follows that takes a stamp away
-        return;
-    }
+    if (substep == inertia.substeps) return;
 
     vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
     warm = gather_impulses(warm, velocity);

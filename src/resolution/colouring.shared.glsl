@@ -136,12 +136,12 @@ inline bool is_last_colour(uint used_low, uint used_high, uint colour)
     return count_earlier(used_low, used_high, colour) + 1u == count_earlier(used_low, used_high, k_first_hub_colour);
 }
 
-// See contact_order.shared.glsl. `place_earlier`, `place_last`: those of A, or of B.
-inline uint order_at_body(uint used_low, uint used_high, uint colour, uint place_earlier, uint place_last)
+// See contact_order.shared.glsl. `its_traits`: the body's; `earlier_shift`, `last_shift`: those of A, or of B.
+inline uint order_at_body(uint its_traits, uint used_low, uint used_high, uint colour, uint earlier_shift, uint last_shift)
 {
-    if (colour >= k_first_hub_colour) return 0u;
+    if ((its_traits & k_trait_movable) == 0u || colour >= k_first_hub_colour) return 0u;
     uint last = is_last_colour(used_low, used_high, colour) ? 1u : 0u;
-    return count_earlier(used_low, used_high, colour) << place_earlier | last << place_last;
+    return count_earlier(used_low, used_high, colour) << earlier_shift | last << last_shift;
 }
 
 inline bool is_hub(uint edge_count, Parameters p) { return edge_count > p.hub_contacts; }
@@ -175,9 +175,9 @@ inline uint shares_of_hub(uint edge_count, uint hub_word) { return edge_count - 
 inline uint largest_load_word(uint load) { return load + 1u; }
 inline uint largest_load(uint word) { return word - 1u; }
 
-// For BodyInertia::traits, of a body's words.
-inline uint traits_in_graph(uint used_low, uint used_high, uint hub_word)
+// What the graph adds to a body's traits, by its words.
+inline uint traits_in_graph(uint its_traits, uint used_low, uint used_high, uint hub_word)
 {
-    uint contacts = count_earlier(used_low, used_high, k_first_hub_colour);
+    uint contacts = (its_traits & k_trait_movable) != 0u ? count_earlier(used_low, used_high, k_first_hub_colour) : 0u;
     return (hub_word != 0u ? k_trait_hub : 0u) | contacts << k_contacts_of_body;
 }

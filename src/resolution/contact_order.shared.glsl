@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How many contacts of its two bodies a pass solves before a contact, and whether it is their last one: what it has to know
-// where contacts wait for each other one by one, and not for whole colours. Colours are solved in ascending order, and a body has
-// one contact of each. Those of hubs, and the overflow set, follow in an order of their own.
+// where contacts wait for each other one by one, and not for whole colours. Colours are solved in ascending order, and a body
+// has one contact of each. Those of hubs, and the overflow set, follow in an order of their own. At a body that contacts cannot
+// push, frozen ones too, nobody waits: there all is 0.
 
 // ContactConstraint::counts: the points in the low bits, then these.
 const uint k_point_bits = 3u;
@@ -17,5 +18,5 @@ const uint k_contacts_of_body = 9u;
 inline uint contacts_of_body(uint traits) { return (traits >> k_contacts_of_body) & ((1u << k_earlier_bits) - 1u); }
 
 inline uint point_count_of(uint counts) { return counts & ((1u << k_point_bits) - 1u); }
-inline uint earlier_of(uint counts, uint place) { return (counts >> place) & ((1u << k_earlier_bits) - 1u); }
-inline bool is_last_of(uint counts, uint place) { return ((counts >> place) & 1u) != 0u; }
+inline uint earlier_of(uint counts, uint shift) { return (counts >> shift) & ((1u << k_earlier_bits) - 1u); }
+inline bool is_last_of(uint counts, uint shift) { return ((counts >> shift) & 1u) != 0u; }

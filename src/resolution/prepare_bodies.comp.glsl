@@ -56,8 +56,8 @@ void main()
     uint its_substeps = number_of_substeps(word);
     BodyInertia inertia = world_inertia(pose.rotation, unpack(properties[body]).inverse_inertia,
                                         traits_of_body(unpack(shapes[body]), pose), its_substeps);
-    inertia.traits |= traits_in_graph(body_colours[body_word(body, k_used_low)], body_colours[body_word(body, k_used_high)],
-                                      body_colours[body_word(body, k_hub_word)]);
+    inertia.traits |= traits_in_graph(inertia.traits, body_colours[body_word(body, k_used_low)],
+                                      body_colours[body_word(body, k_used_high)], body_colours[body_word(body, k_hub_word)]);
     if (word != its_substeps) inertia.traits |= slowness_trait(ticks, its_substeps);
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);

@@ -28,7 +28,8 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia,
                                              traits_of_body(state.shapes[body], pose), substeps);
         const uint* const words = &state.body_colours[body_word(body, 0)];
-        state.inertias[body].traits |= traits_in_graph(words[k_used_low], words[k_used_high], words[k_hub_word]);
+        state.inertias[body].traits |=
+            traits_in_graph(state.inertias[body].traits, words[k_used_low], words[k_used_high], words[k_hub_word]);
         if (word != substeps) state.inertias[body].traits |= slowness_trait(ticks, substeps);
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
             state.inertias[body].traits |= k_trait_grouped;

@@ -45,10 +45,10 @@ float share_of_contact(Manifold manifold, uint pair, uint colour)
                         shares_of_hub(body_colours[body_word(hub, k_new_edges)], body_colours[body_word(hub, k_hub_word)]));
 }
 
-uint order_at(uint body, uint colour, uint place_earlier, uint place_last)
+uint order_at(uint body, uint its_traits, uint colour, uint earlier_shift, uint last_shift)
 {
-    return order_at_body(body_colours[body_word(body, k_used_low)], body_colours[body_word(body, k_used_high)], colour,
-                         place_earlier, place_last);
+    return order_at_body(its_traits, body_colours[body_word(body, k_used_low)], body_colours[body_word(body, k_used_high)], colour,
+                         earlier_shift, last_shift);
 }
 
 void tell_load(LoadBelow load, uint height)
@@ -70,8 +70,8 @@ void main()
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
     uint colour = colour_of_key(manifold_keys[index]);
-    uint order = order_at(manifold.body_a, colour, k_earlier_of_a, k_last_of_a) |
-                 order_at(manifold.body_b, colour, k_earlier_of_b, k_last_of_b);
+    uint order = order_at(manifold.body_a, inertia_a.traits, colour, k_earlier_of_a, k_last_of_a) |
+                 order_at(manifold.body_b, inertia_b.traits, colour, k_earlier_of_b, k_last_of_b);
     ContactConstraint c =
         begin_constraint(manifold, manifold_index, colour, order, share_of_contact(manifold, manifold_index, colour),
                          inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, parameters);

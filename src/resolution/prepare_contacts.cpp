@@ -20,9 +20,10 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
                         word(k_whole_load) - word(k_unshared_load), shares_of_hub(word(k_new_edges), word(k_hub_word)));
 }
 
-static uint order_at(const CpuState& state, uint body, uint colour, uint place_earlier, uint place_last) {
+static uint order_at(const CpuState& state, uint body, uint colour, uint earlier_shift, uint last_shift) {
     const uint* const words = &state.body_colours[body_word(body, 0)];
-    return order_at_body(words[k_used_low], words[k_used_high], colour, place_earlier, place_last);
+    return order_at_body(state.inertias[body].traits, words[k_used_low], words[k_used_high], colour, earlier_shift,
+                         last_shift);
 }
 
 static void raise_to(uint& word, uint value) {

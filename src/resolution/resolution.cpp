@@ -102,7 +102,7 @@ void solve(Device& device, const StepPlan& plan) {
             device.grow(BufferId::FastColours, sizeof(uint) * k_fast_colour_words * plan.body_count);
         device.run({.kernel = persistent,
                     .items = plan.persistent_groups * persistent.items_a_group,
-                    .args = {0, plan.one_island},
+                    .args = {0, plan.kinematic},
                     .overlaps_next = plan.in_groups});
     }
     if (plan.in_groups) {

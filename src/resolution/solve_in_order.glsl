@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A pass in which contacts wait for each other one by one: each for those of earlier colours at its two bodies, and for no other.
-// Where it matters that is the order of colours, and so are the bits; but a wait among all groups for each colour takes longer than
-// a contact needs to see what the one before it has stored.
+// A pass in which contacts wait for each other one by one: each for those of earlier colours at its two bodies, and for no
+// other. Where it matters that is the order of colours, and so are the bits; but a wait among all groups for each colour takes
+// longer than a contact needs to see what the one before it has stored. docs/decisions/contacts-wait-one-by-one.md.
 //
-// A velocity that is stored in such a pass has a stamp: how many contacts of the body have been solved in it, mixed with the number
-// of the pass and with all bits of the velocity. So no barrier has to stand between the two: what is loaded while it is being
-// stored, in parts, does not fit its stamp. What is stored otherwise has none, 0.
+// A velocity that is stored in such a pass has a stamp: how many contacts of the body have been solved in it, mixed with the
+// number of the pass and with all bits of the velocity. So no barrier has to stand between the two: what is loaded while it is
+// being stored, in parts, does not fit its stamp. What is stored otherwise has none, 0.
 //
 // What a GPU runs in step is at manifolds of one colour at a time, none of which waits for another one.
 //
@@ -17,55 +17,86 @@ uint passes_in_order = 0u; // so far
 
 uint rotated(uint word, uint bits) { return word << bits | word >> (32u - bits); }
 
-// Odd, and for each number another one. The factor (Knuth's, of multiplicative hashing) has the numbers differ in many bits, as
-// velocities in the last one may, and then the two changes made up for each other.
+// Odd. Each word has its own factor (odd ones without a pattern) and rotation, so that changes of a few of its bits, which is
+// all that changes where bodies rest, do not make up for those of another word, or of the number.
 uint stamp_of(BodyVelocityCells v, uint number)
 {
-    uint linear = v.cell_0.x ^ rotated(v.cell_0.y, 5u) ^ rotated(v.cell_0.z, 10u) ^ rotated(v.cell_0.w, 15u);
-    uint angular = rotated(v.cell_1.x, 20u) ^ rotated(v.cell_1.y, 25u) ^ rotated(v.cell_1.z, 30u);
-    return (linear ^ angular ^ number * 0x9e3779b1u) << 1u | 1u;
+    uint linear = v.cell_0.x * 0x9e3779b1u + rotated(v.cell_0.y, 5u) * 0x85ebca77u + rotated(v.cell_0.z, 10u) * 0xc2b2ae3du;
+    uint angular = v.cell_1.x * 0x165667b1u + rotated(v.cell_1.y, 5u) * 0xd3a2646du + rotated(v.cell_1.z, 10u) * 0xfd7046c5u;
+    uint sum = linear + angular + rotated(v.cell_0.w, 15u) * 0x27d4eb2fu + number * 0xb55a4f09u;
+    return (sum ^ sum >> 15) | 1u;
 }
 
 // Where so many contacts of a body have been solved in this pass.
 uint number_after(uint contacts) { return k_max_colours * passes_in_order + contacts; }
 
-// Whether the velocity is the one that follows `earlier` contacts. A pass begins behind a wait of all.
+// Whether the velocity is the one that follows `earlier` contacts. Before the first one all have waited for each other.
 bool is_after(BodyVelocityCells velocity, uint earlier)
 {
     return earlier == 0u || velocity.cell_1.w == stamp_of(velocity, number_after(earlier));
 }
 
-// `is_end`: no pass over the body follows. What contacts cannot push nobody waits for.
-void store_in_order(uint body, uint its_traits, BodyVelocity velocity, uint earlier, bool is_end)
+// What contacts make of a body. Nobody waits for what they cannot push. `is_end`: no pass over the body follows.
+void store_in_order(uint body, uint its_traits, BodyVelocity before, BodyVelocity changed, uint earlier, bool is_end)
 {
     if ((its_traits & k_trait_movable) == 0u) return;
-    BodyVelocityCells stored = pack(velocity);
+    bool is_frozen = before.inverse_mass == 0.0; // in this launch: it stays as it is, but those behind wait for it
+    BodyVelocityCells stored = pack(before);
+    if (!is_frozen) stored = pack(changed);
     stored.cell_1.w = is_end ? 0u : stamp_of(stored, number_after(earlier + 1u));
     velocities[body] = stored;
 }
 
+// Where no relax pass has done so.
+void take_stamp_away(uint body)
+{
+    BodyVelocityCells stored = velocities[body];
+    if (stored.cell_1.w == 0u) return;
+    stored.cell_1.w = 0u;
+    velocities[body] = stored;
+}
+
+// ---- waits ----
+
+const uint k_looks_between = 1024u; // looks at whether somebody has given up
+
+// Whether to look once more at what is not there yet.
+bool looks_again(inout uint looks)
+{
+    ++looks;
+    if (looks == k_most_polls) give_up();
+    return looks % k_looks_between != 0u || !have_given_up();
+}
+
 // ---- the deal ----
 //
-// Manifolds are dealt by 64 of a colour, with the rest of it as the last 64, to that many workers next to each other: what a GPU runs
-// in step is no larger. Groups take turns, as there are often fewer manifolds than invocations, and all multiprocessors are to have
-// some. A place of the deal has a manifold or is empty.
+// Manifolds are dealt by 64 of a colour, with the rest of it as the last 64, to that many workers next to each other. Groups
+// take turns, as there are often fewer manifolds than invocations, and all multiprocessors are to have some. A place of the deal
+// has a manifold or is empty.
 
-const uint k_dealt_together = 64u;
+const uint k_dealt_together = 64u; // no GPU that runs more in step (subgroups) is known to have OpenGL 4.5
 
 uint worker;
 uint workers() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x; }
 bool is_first_worker() { return worker == 0u; }
 
+shared uint is_left[3]; // see goes_on
 shared uint first_places[k_max_colours + 1u]; // of each colour; then the end
 uint worker_colour;                           // of the worker's present place
 
 uint count_of(uint colour) { return colour_offsets[colour + 1u] - colour_offsets[colour]; }
-uint places_of(uint colour) { return (count_of(colour) + k_dealt_together - 1u) / k_dealt_together * k_dealt_together; }
+
+uint places_of(uint colour)
+{
+    return (count_of(colour) + k_dealt_together - 1u) / k_dealt_together * k_dealt_together;
+}
 
 void deal_manifolds()
 {
     uint me = gl_LocalInvocationID.x;
-    worker = (me / k_dealt_together * gl_NumWorkGroups.x + gl_WorkGroupID.x) * k_dealt_together + me % k_dealt_together;
+    uint deal = me / k_dealt_together * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    worker = deal * k_dealt_together + me % k_dealt_together;
+    if (me < 3u) is_left[me] = 0u;
     for (uint colour = me; colour <= k_max_colours; colour += gl_WorkGroupSize.x) {
         uint places = 0u;
         for (uint before = first_colour; before < colour; ++before)
@@ -158,27 +189,30 @@ void find_earlier(uint tick)
 BodyVelocityCells cells_a; // the velocity as it was at the last look
 BodyVelocityCells cells_b;
 
-// Where one group is alone, its invocations meet after each look: there are implementations that run them one after the other.
-bool is_alone() { return gl_NumWorkGroups.x == 1u; }
-
-bool is_turn()
+bool do_fit()
 {
     cells_a = velocities[body_a];
     cells_b = velocities[body_b];
     return is_after(cells_a, earlier_a) && is_after(cells_b, earlier_b);
 }
 
-const uint k_looks_between = 1024u; // looks at whether somebody has given up
+// What was loaded in parts may fit by chance. So what fits is looked at once more: by then it has been stored as a whole.
+bool is_turn()
+{
+    if (!do_fit()) return false;
+    return (earlier_a | earlier_b) == 0u || do_fit();
+}
 
-// Whether it is the turn of the contact in hand.
+// Where one group is alone, its invocations meet after each look: there are implementations that run them one after the other.
+bool is_alone() { return gl_NumWorkGroups.x == 1u; }
+
+// Whether it is the turn of the contact in hand, or somebody has given up.
 bool wait_for_turn()
 {
     uint looks = 0u;
     while (!is_turn()) {
         if (is_alone()) return false;
-        ++looks;
-        if (looks == k_most_polls) give_up();
-        if (looks % k_looks_between == 0u && have_given_up()) return true;
+        if (!looks_again(looks)) return true;
     }
     return true;
 }
@@ -188,20 +222,22 @@ void pass_in_turn(uint pass, uint index, PassTarget target)
     VelocityPair before;
     before.a = unpack(cells_a);
     before.b = unpack(cells_b);
-    VelocityPair after = solve_constraint(pass, index, target, before);
+    VelocityPair changed = solve_constraint(pass, index, target, before);
     bool is_end = pass == k_relax;
     if (k_multirate_islands && !is_end) {
-        after.a = change_in_part(before.a, after.a, part_a);
-        after.b = change_in_part(before.b, after.b, part_b);
+        changed.a = change_in_part(before.a, changed.a, part_a);
+        changed.b = change_in_part(before.b, changed.b, part_b);
     }
-    store_in_order(body_a, traits, after.a, earlier_a, is_end && is_last_of(counts, k_last_of_a));
-    store_in_order(body_b, traits >> k_traits_of_b, after.b, earlier_b, is_end && is_last_of(counts, k_last_of_b));
+    bool is_last_of_a = is_end && is_last_of(counts, k_last_of_a);
+    bool is_last_of_b = is_end && is_last_of(counts, k_last_of_b);
+    store_in_order(body_a, traits, before.a, changed.a, earlier_a, is_last_of_a);
+    store_in_order(body_b, traits >> k_traits_of_b, before.b, changed.b, earlier_b, is_last_of_b);
 }
 
-shared uint is_left[3]; // of the present round of looks, of the one before and of the next
 uint rounds = 0u;
 
-// Whether the invocation goes on: as long as it has something to do itself, or one that it meets has.
+// Whether the invocation goes on: as long as it has something to do itself, or one that it meets has. is_left is that of this
+// round of looks, of the one before and of the next.
 bool goes_on(bool has_more)
 {
     if (!is_alone()) return has_more;
@@ -214,22 +250,22 @@ bool goes_on(bool has_more)
 
 bool is_settled = true; // all have waited for each other since the last pass
 
-// If not, all contacts of the body have had a sub-step in it, and where the body is none that contacts push, it does not move.
+// If they have not, all contacts of the body have had a sub-step in it, and a body that contacts do not push does not move.
 BodyVelocity load_settled_velocity(uint body, uint its_traits)
 {
     BodyVelocityCells cells = velocities[body];
-    if (is_settled) return unpack(cells);
-    uint contacts = contacts_of_body(its_traits);
-    for (uint looks = 1u; looks < k_most_polls && !is_after(cells, contacts); ++looks) {
-        if (looks % k_looks_between == 0u && have_given_up()) return unpack(cells);
+    uint contacts = is_settled ? 0u : contacts_of_body(its_traits);
+    uint looks = 0u;
+    while (!is_after(cells, contacts) && looks_again(looks))
         cells = velocities[body];
-    }
+    if (contacts > 0u) cells = velocities[body]; // see is_turn
     if (!is_after(cells, contacts)) give_up();
     return unpack(cells);
 }
 
 void pass_over_contacts(uint pass, uint tick, bool ends_tick)
 {
+    wait_for_finish();
     ++passes_in_order;
     uint end = first_places[k_first_hub_colour];
     uint place = worker;
@@ -259,9 +295,11 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
         place += workers();
         ++come_by;
     }
+    if (place < end) give_up(); // there are drivers that end a loop after so many rounds
     take_in_hand(first);
     bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
-    is_settled = !are_all || !ends_tick || ticks_apart > 1u || args.y == 1u;
+    bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;
+    is_settled = !(are_all && ends_tick && move_by_themselves);
     if (is_settled || is_alone()) wait_for_workers();
     if (are_all) return;
     uint index = first_at(tick, manifold_from(place));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // All sub-steps of what no work group solves alone, in one launch: its groups stay until the end and wait for each other
-// after every pass, and within it contact by contact (solve_in_order.glsl). That costs less than a launch for each colour does, the
-// code is fetched once, and where there are no more manifolds than invocations each is loaded once. For worlds in which nothing
-// bounces.
+// before every pass, and within it contact by contact (solve_in_order.glsl). That costs less than a launch for each colour
+// does, the code is fetched once, and where there are no more manifolds than invocations each is loaded once. For worlds in
+// which nothing bounces.
 // Before this file the kernel defines k_multirate_islands, as for contact_passes.glsl.
-// args.x: 1 to count how many groups can run at a time instead. args.y: 1 where what contacts cannot push may move.
+// args.x: 1 to count how many groups can run at a time instead. args.y: 1 where some body is kinematic.
 // Reads: Counters, ColourOffsets, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
 // HubChanges, FastColours, Arrivals.
@@ -36,6 +36,7 @@ layout(std430) coherent volatile buffer Velocities { BodyVelocityCells velocitie
 shared uint colour_offsets[k_max_colours + 2u];
 
 uint slot_of(uint body) { return body; }
+
 void store_velocity(uint body, BodyVelocity velocity)
 {
     velocity.stamp = 0u; // see solve_in_order.glsl
@@ -83,7 +84,6 @@ bool is_own(BodyInertia inertia) { return moves_hub ? is_launched(inertia) : is_
 
 #include "resolution/body_passes.glsl"
 
-
 // Groups are adding up what contacts have done to hubs: nobody else may read a hub's velocity before the next wait.
 bool hubs_move = false;
 
@@ -130,10 +130,12 @@ void integrate_own_bodies(uint tick)
             mark = mark << 1u | mark >> 31u;
             if (!most_have_substep(tick) && (fast_marks & its_mark) == 0u) continue;
             body = looks_at_all ? place : launched_bodies[place];
-            if (k_multirate_islands && (1u << slowness(unpack(inertias[body]).traits)) != ticks_apart) fast_marks |= its_mark;
+            bool is_fast = k_multirate_islands && (1u << slowness(unpack(inertias[body]).traits)) != ticks_apart;
+            if (is_fast) fast_marks |= its_mark;
         }
         if (k_multirate_islands && tick == 0u) forget_fast_colours(body);
         integrate_body(body, tick);
+        if (parameters.relax == 0u && tick == like_substeps * ticks_apart) take_stamp_away(body);
     }
 }
 

@@ -20,8 +20,8 @@ void wait_for_workers();
 void finish_colour(uint colour, uint tick);
 void wait_for_finish();
 
-// One pass over all manifolds that have a sub-step at the tick, which begins behind a wait. It ends with one, but for a pass that
-// ends the tick: what follows that may be integrate_own_bodies that waits by itself.
+// One pass over all manifolds that have a sub-step at the tick, which begins behind a wait. It ends with one, but for a pass
+// that ends the tick: what follows that may be integrate_own_bodies that waits by itself.
 void pass_over_contacts(uint pass, uint tick, bool ends_tick);
 // Of the manifold in hand, which has another number of sub-steps than most, in the first pass over all.
 void note_unlike();
@@ -106,8 +106,8 @@ void take_in_hand(uint index)
 
 // ---- passes ----
 
-// All manifolds from the colour `from` on, and of the worker's from `index` on, colour by colour with a wait after each. `first`:
-// of the worker's, the one that the next pass begins with.
+// All manifolds from the colour `from` on, and of the worker's from `index` on, colour by colour with a wait after each; of a
+// colour of hubs the next reader waits (wait_for_finish). `first`: of the worker's, the one that the next pass begins with.
 void pass_over_colours(uint from, uint index, uint first, uint pass, uint tick)
 {
     bool is_found = true;  // `index` is the worker's next manifold; or else a later one

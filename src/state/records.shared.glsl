@@ -144,7 +144,7 @@ struct ContactConstraint {
     uint body_a;
     uint body_b;
     uint manifold;
-    uint counts; // of its points, and of what is solved before it at each body: see resolution/contact_counts.shared.glsl
+    uint counts; // of its points, and of what is solved before it at each body: see resolution/contact_order.shared.glsl
     vec3 normal;
     float friction;
     vec3 centre_a; // m, the middle of the points from A's centre
