@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -232,7 +233,7 @@ TEST_P(Paths, one_persistent_launch_gives_the_bits_of_many) {
     }
 }
 
-/// Velocities that are no numbers freeze bodies when they are moved, and forces that are none when they are to move.
+/// What is infinite, and freezes a body when a sub-step begins.
 enum class Cause { Velocity, Force };
 
 template <typename Record> void make_infinite(EngineRun& run, engine::BufferId buffer, glm::vec3 Record::*vector) {

@@ -18,7 +18,7 @@ void integrate_body(uint body, uint tick)
     BodyShape shape = unpack(shapes[body]);
     uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
     if (substep > inertia.substeps || !is_own(inertia) || !is_mover(shape)) return;
-    // All at once: loads behind a decision wait for what it is made from.
+    // The rest at once: loads behind a decision wait for what it is made from.
     BodyPose pose = unpack(poses[body]);
     BodyDelta delta = load_delta(body);
     BodyWarmStart warm = load_warm_start(body);

@@ -2,7 +2,7 @@
 // How many contacts of its two bodies a pass solves before a contact, and whether it is their last one: what it has to know
 // where contacts wait for each other one by one, and not for whole colours. Colours are solved in ascending order, and a body
 // has one contact of each. Those of hubs, and the overflow set, follow in an order of their own. At a body that contacts cannot
-// push, frozen ones too, nobody waits: there all is 0.
+// push, or that was frozen before the step, nobody waits: there all is 0.
 
 // ContactConstraint::counts: the points in the low bits, then these.
 const uint k_point_bits = 3u;

@@ -196,7 +196,8 @@ bool do_fit()
     return is_after(cells_a, earlier_a) && is_after(cells_b, earlier_b);
 }
 
-// What was loaded in parts may fit by chance. So what fits is looked at once more: by then it has been stored as a whole.
+// What was loaded in parts may fit by chance. So what fits is looked at once more, when all of it is most likely there: see the
+// decision.
 bool is_turn()
 {
     if (!do_fit()) return false;
@@ -206,14 +207,15 @@ bool is_turn()
 // Where one group is alone, its invocations meet after each look: there are implementations that run them one after the other.
 bool is_alone() { return gl_NumWorkGroups.x == 1u; }
 
-// Whether it is the turn of the contact in hand, or somebody has given up.
+// Whether it is the turn of the contact in hand, or somebody has given up. Some drivers end a loop after so many rounds.
 bool wait_for_turn()
 {
+    bool fits = is_turn();
+    if (is_alone()) return fits;
     uint looks = 0u;
-    while (!is_turn()) {
-        if (is_alone()) return false;
-        if (!looks_again(looks)) return true;
-    }
+    while (!fits && looks_again(looks))
+        fits = is_turn();
+    if (!fits) give_up();
     return true;
 }
 
@@ -250,16 +252,22 @@ bool goes_on(bool has_more)
 
 bool is_settled = true; // all have waited for each other since the last pass
 
+BodyVelocityCells velocity_after(uint contacts, uint body)
+{
+    uint looks = 0u;
+    BodyVelocityCells cells = velocities[body];
+    while (!is_after(cells, contacts) && looks_again(looks))
+        cells = velocities[body];
+    if (!is_after(cells, contacts)) give_up();
+    return cells;
+}
+
 // If they have not, all contacts of the body have had a sub-step in it, and a body that contacts do not push does not move.
 BodyVelocity load_settled_velocity(uint body, uint its_traits)
 {
-    BodyVelocityCells cells = velocities[body];
     uint contacts = is_settled ? 0u : contacts_of_body(its_traits);
-    uint looks = 0u;
-    while (!is_after(cells, contacts) && looks_again(looks))
-        cells = velocities[body];
-    if (contacts > 0u) cells = velocities[body]; // see is_turn
-    if (!is_after(cells, contacts)) give_up();
+    BodyVelocityCells cells = velocity_after(contacts, body);
+    if (contacts > 0u) cells = velocity_after(contacts, body); // twice: see is_turn
     return unpack(cells);
 }
 
@@ -295,7 +303,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
         place += workers();
         ++come_by;
     }
-    if (place < end) give_up(); // there are drivers that end a loop after so many rounds
+    if (place < end) give_up(); // as above
     take_in_hand(first);
     bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
     bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;

@@ -135,7 +135,8 @@ void integrate_own_bodies(uint tick)
         }
         if (k_multirate_islands && tick == 0u) forget_fast_colours(body);
         integrate_body(body, tick);
-        if (parameters.relax == 0u && tick == like_substeps * ticks_apart) take_stamp_away(body);
+        bool keeps_stamp = parameters.relax == 0u && tick == like_substeps * ticks_apart;
+        if (keeps_stamp && is_own(unpack(inertias[body]))) take_stamp_away(body);
     }
 }
 

@@ -20,8 +20,8 @@ void wait_for_workers();
 void finish_colour(uint colour, uint tick);
 void wait_for_finish();
 
-// One pass over all manifolds that have a sub-step at the tick, which begins behind a wait. It ends with one, but for a pass
-// that ends the tick: what follows that may be integrate_own_bodies that waits by itself.
+// One pass over all manifolds that have a sub-step at the tick, which begins behind a wait. It ends with one, but for a colour
+// of hubs at its end, for which the next pass waits, and for a pass that ends the tick, if integrate_own_bodies waits instead.
 void pass_over_contacts(uint pass, uint tick, bool ends_tick);
 // Of the manifold in hand, which has another number of sub-steps than most, in the first pass over all.
 void note_unlike();
