@@ -12,7 +12,6 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/sleep.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "finish/contact_report.shared.glsl"
 

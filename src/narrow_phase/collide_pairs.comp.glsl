@@ -14,7 +14,6 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
 #include "resolution/sleep.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"

@@ -12,7 +12,6 @@
 // Overflow: a manifold with no colour left at its bodies joins the overflow set, and so does one of two hubs.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 

@@ -4,7 +4,6 @@
 // Writes: BodyColours.
 // Needs: nothing.
 // Overflow: none.
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 
 layout(local_size_x = 64) in;

@@ -98,6 +98,29 @@ inline uint body_word(uint body, uint word) { return k_body_words * body + word;
 inline uint used_word(uint colour) { return colour < 32u ? k_used_low : k_used_high; }
 inline uint used_bit(uint colour) { return 1u << (colour & 31u); }
 
+// ---- the order at a body ----
+
+// Of the colours in use at a body, how many come before this one.
+inline uint count_earlier(uint used_low, uint used_high, uint colour)
+{
+    uint below = used_bit(colour) - 1u;
+    return uint(bitCount(colour < 32u ? used_low & below : used_low)) +
+           uint(bitCount(colour < 32u ? 0u : used_high & below));
+}
+
+inline bool is_last_colour(uint used_low, uint used_high, uint colour)
+{
+    return count_earlier(used_low, used_high, colour) + 1u == count_earlier(used_low, used_high, k_first_hub_colour);
+}
+
+// See contact_order.shared.glsl. `its_traits`: the body's; `earlier_shift`, `last_shift`: those of A, or of B.
+inline uint order_at_body(uint its_traits, uint used_low, uint used_high, uint colour, uint earlier_shift, uint last_shift)
+{
+    if ((its_traits & k_trait_movable) == 0u || colour >= k_first_hub_colour) return 0u;
+    uint last = is_last_colour(used_low, used_high, colour) ? 1u : 0u;
+    return count_earlier(used_low, used_high, colour) << earlier_shift | last << last_shift;
+}
+
 // ---- hubs ----
 //
 // A body with more contacts than there are colours would have most of them solved one after the other. Such a hub does
@@ -121,27 +144,6 @@ const uint k_colours_for_first = 4u; // that those may take
 inline uint count_edges(uint used_low, uint used_high, uint new_edges)
 {
     return uint(bitCount(used_low)) + uint(bitCount(used_high)) + new_edges;
-}
-
-// Of the colours in use at a body, how many come before this one.
-inline uint count_earlier(uint used_low, uint used_high, uint colour)
-{
-    uint below = used_bit(colour) - 1u;
-    return uint(bitCount(colour < 32u ? used_low & below : used_low)) +
-           uint(bitCount(colour < 32u ? 0u : used_high & below));
-}
-
-inline bool is_last_colour(uint used_low, uint used_high, uint colour)
-{
-    return count_earlier(used_low, used_high, colour) + 1u == count_earlier(used_low, used_high, k_first_hub_colour);
-}
-
-// See contact_order.shared.glsl. `its_traits`: the body's; `earlier_shift`, `last_shift`: those of A, or of B.
-inline uint order_at_body(uint its_traits, uint used_low, uint used_high, uint colour, uint earlier_shift, uint last_shift)
-{
-    if ((its_traits & k_trait_movable) == 0u || colour >= k_first_hub_colour) return 0u;
-    uint last = is_last_colour(used_low, used_high, colour) ? 1u : 0u;
-    return count_earlier(used_low, used_high, colour) << earlier_shift | last << last_shift;
 }
 
 inline bool is_hub(uint edge_count, Parameters p) { return edge_count > p.hub_contacts; }

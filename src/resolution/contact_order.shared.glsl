@@ -12,9 +12,6 @@ const uint k_earlier_of_b = k_earlier_of_a + k_earlier_bits;
 const uint k_last_of_a = k_earlier_of_b + k_earlier_bits;
 const uint k_last_of_b = k_last_of_a + 1u;
 
-// BodyInertia::traits, from this bit on: how many contacts the body has in all colours but those of hubs.
-const uint k_contacts_of_body = 9u;
-
 inline uint contacts_of_body(uint traits) { return (traits >> k_contacts_of_body) & ((1u << k_earlier_bits) - 1u); }
 
 inline uint point_count_of(uint counts) { return counts & ((1u << k_point_bits) - 1u); }

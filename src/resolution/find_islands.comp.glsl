@@ -11,7 +11,6 @@
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/sleep.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/island.shared.glsl"

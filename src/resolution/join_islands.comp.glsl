@@ -8,7 +8,6 @@
 // Needs: a barrier after begin_islands.
 // Overflow: none.
 #include "state/math.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/island.shared.glsl"

@@ -10,7 +10,6 @@
 // Overflow: none; the list has room for every pair.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/hub_load.shared.glsl"

@@ -6,7 +6,6 @@
 // of what sleeps.
 // Needs: a barrier after group_islands.
 // Overflow: none.
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 

@@ -5,7 +5,6 @@
 // Writes: Islands; of the island IslandSizes, IslandStarts (its bodies) and Substeps; in IslandFill, that it is awake.
 // Needs: barriers after join_islands and assign_colours.
 // Overflow: none.
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 

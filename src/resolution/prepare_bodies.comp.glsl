@@ -12,7 +12,6 @@
 #include "resolution/sleep.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/multirate.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 

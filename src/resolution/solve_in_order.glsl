@@ -139,13 +139,14 @@ layout(std430) coherent buffer FastColours { uint fast_colours[]; };
 
 uint ticks_power(uint tick) { return uint(findLSB(tick)); }
 uint slowest_power() { return uint(findLSB(ticks_apart)); }
+// `word`: k_used_low or k_used_high.
 uint fast_word(uint body, uint power, uint word) { return k_fast_colour_words * body + 2u * power + word; }
 
 void forget_fast_colours(uint body)
 {
     for (uint power = 0u; power < slowest_power(); ++power) {
-        fast_colours[fast_word(body, power, 0u)] = 0u;
-        fast_colours[fast_word(body, power, 1u)] = 0u;
+        fast_colours[fast_word(body, power, k_used_low)] = 0u;
+        fast_colours[fast_word(body, power, k_used_high)] = 0u;
     }
 }
 
@@ -153,13 +154,14 @@ void note_fast_colour(uint body, uint its_traits, uint colour)
 {
     if ((its_traits & k_trait_movable) == 0u) return;
     for (uint power = slowness(traits); power < slowest_power(); ++power)
-        atomicOr(fast_colours[fast_word(body, power, colour < 32u ? 0u : 1u)], 1u << (colour & 31u));
+        atomicOr(fast_colours[fast_word(body, power, used_word(colour))], used_bit(colour));
 }
 
 uint count_earlier_fast(uint body, uint its_traits, uint colour, uint power)
 {
     if ((its_traits & k_trait_movable) == 0u) return 0u;
-    return count_earlier(fast_colours[fast_word(body, power, 0u)], fast_colours[fast_word(body, power, 1u)], colour);
+    return count_earlier(fast_colours[fast_word(body, power, k_used_low)], fast_colours[fast_word(body, power, k_used_high)],
+                         colour);
 }
 
 void note_unlike()
@@ -303,7 +305,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
         place += workers();
         ++come_by;
     }
-    if (place < end) give_up(); // as above
+    if (place < end) give_up(); // a driver has ended the loop
     take_in_hand(first);
     bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
     bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;

@@ -9,7 +9,6 @@
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 #include "resolution/hub.shared.glsl"
