@@ -112,21 +112,21 @@ struct Items {
         const bool a_is_hub = i % 5 == 2, b_is_static = i % 4 == 3, b_is_hub = i % 8 == 5 && !a_is_hub;
         c.body_a = a_is_hub ? k_hub : 2 * i;
         c.body_b = b_is_static ? k_static_body : b_is_hub ? k_hub : 2 * i + 1;
-        c.counts = 1 + i % 4;
+        c.counts = (1 + i % 4) | (i % 7 == 6 ? 2u : 8u) << k_contact_substeps;
         const vec3 n = vector(1.0f);
         c.normal = scale3(n, inverse_sqrt(dot3(n, n)));
         c.friction = 0.5f;
         c.restitution = restitution;
         c.centre_a = vector(0.5f);
         c.centre_b = vector(0.5f);
-        c.inverse_masses = velocities[c.body_a].inverse_mass + velocities[c.body_b].inverse_mass;
+        c.inverse_mass_a = velocities[c.body_a].inverse_mass;
+        c.inverse_mass_b = velocities[c.body_b].inverse_mass;
         c.gap = vector(0.001f);
         c.traits = k_trait_movable | (b_is_static ? 0u : k_trait_movable << k_traits_of_b) |
                    (i % 6 == 5 ? k_trait_round : 0u) | (a_is_hub ? k_trait_hub : 0u) |
                    (b_is_hub ? k_trait_hub << k_traits_of_b : 0u);
         c.hub_share = 0.1f + 0.05f * static_cast<float>(i % 3);
         c.friction_mass = vec3(0.4f, 0.4f, 0.1f);
-        c.substeps = i % 7 == 6 ? 2 : 8;
         for (int k = 0; k < static_cast<int>(point_count_of(c.counts)); ++k) {
             c.x[k] = number(0.5f);
             c.y[k] = number(0.5f);
@@ -337,7 +337,7 @@ ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contac
         c = add_point(c, static_cast<int>(i), points[i], meeting, respond_to_normals(meeting));
     const float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
     c.base_separation =
-        lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, state.parameters);
+        lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, state.parameters);
     return c;
 }
 

@@ -487,6 +487,20 @@ TEST(Math, when_all_colours_are_used_there_is_the_overflow_set) {
     EXPECT_EQ(first_free_colour(0, 0, 1, true), k_overflow_colour) << "the first is not for two that can be pushed";
 }
 
+RC_GTEST_PROP(Math, a_stamp_tells_the_number_that_it_was_made_from, (uint x, uint y, uint z, uint number)) {
+    const uint stamp = engine::stamp_of(x, y, z, number);
+    const uint of_frozen = stamp | engine::k_stamp_of_frozen;
+    RC_ASSERT(engine::is_stamp(stamp, stamp));
+    RC_ASSERT(engine::is_stamp(of_frozen, stamp));
+    for (uint apart = 1; apart < 1000; ++apart)
+        for (const uint other : {number + apart, number - apart, number + apart * apart * 97, number - apart * apart * 97})
+            RC_ASSERT_FALSE(engine::is_stamp(of_frozen, engine::stamp_of(x, y, z, other)));
+}
+
+RC_GTEST_PROP(Math, an_inverse_mass_is_no_stamp, (uint x, uint y, uint z, uint number, float mass)) {
+    RC_ASSERT_FALSE(engine::is_stamp(glm::floatBitsToUint(std::abs(mass)), engine::stamp_of(x, y, z, number)));
+}
+
 TEST(Math, launches_cover_their_items_within_the_limits_of_a_dimension) {
     for (const uint group_size : {1u, 64u, 1024u}) {
         for (const uint items :

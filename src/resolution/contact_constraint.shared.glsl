@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From a manifold to the solver's record of it, and back.
-// Needs resolution/manifold_rows.shared.glsl, contact_order.shared.glsl, hub.shared.glsl, softness.shared.glsl,
+// Needs resolution/manifold_rows.shared.glsl, contact_counts.shared.glsl, hub.shared.glsl, softness.shared.glsl,
 // load.shared.glsl, multirate.shared.glsl and island.shared.glsl.
 
 // Whether a pair is one of those that a launch is for.
@@ -41,7 +41,7 @@ inline ContactRate find_rate(uint demand, BodyInertia a, BodyInertia b, Paramete
     return rate;
 }
 
-// Impulses are kept for a whole step, and accumulated in a sub-step. `order`: see contact_order.shared.glsl.
+// Impulses are kept for a whole step, and accumulated in a sub-step. `order`: see contact_counts.shared.glsl.
 inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index, uint colour, uint order, float hub_share,
                                           float inverse_mass_a, float inverse_mass_b, BodyInertia inertia_a,
                                           BodyInertia inertia_b, Parameters p)
@@ -49,24 +49,22 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     vec3 none = vec3(0.0f, 0.0f, 0.0f);
     vec4 no_points = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     uint traits = traits_of_constraint(inertia_a, inertia_b, colour);
-    precise float inverse_masses = share_inverse_mass(inverse_mass_a, hub_share, traits) +
-                                   share_inverse_mass(inverse_mass_b, hub_share, traits >> k_traits_of_b);
     ContactRate rate = find_rate(substeps_of(manifold.demand), inertia_a, inertia_b, p);
     ContactConstraint c;
     c.body_a = manifold.body_a;
     c.body_b = manifold.body_b;
     c.manifold = manifold_index;
-    c.counts = manifold.point_count | order;
+    c.counts = manifold.point_count | order | rate.substeps << k_contact_substeps;
     c.normal = manifold.normal;
     c.friction = manifold.friction;
     c.centre_a = none;
     c.restitution = manifold.restitution;
     c.centre_b = none;
-    c.inverse_masses = inverse_masses;
+    c.inverse_mass_a = inverse_mass_a;
     c.gap = none;
     c.traits = traits | rate.trait;
     c.friction_mass = none;
-    c.substeps = rate.substeps;
+    c.inverse_mass_b = inverse_mass_b;
     c.x = no_points;
     c.y = no_points;
     c.lever = no_points;
@@ -74,7 +72,7 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.normal_mass = no_points;
     precise vec3 friction_impulse =
         vec3(manifold.tangent_impulse_1, manifold.tangent_impulse_2, manifold.twist_impulse) *
-        reciprocal(float(c.substeps));
+        reciprocal(float(rate.substeps));
     c.friction_impulse = friction_impulse;
     c.hub_share = hub_share;
     c.moment = none;
@@ -106,7 +104,7 @@ inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint poi
     precise vec3 arm = point.anchor_a - c.centre_a;
     precise vec3 apart = c.centre_b - c.centre_a;
     precise float base = point.separation - dot3(apart, c.normal);
-    precise float impulse = point.normal_impulse * reciprocal(float(c.substeps));
+    precise float impulse = point.normal_impulse * reciprocal(float(substeps_of_contact(c.counts)));
     float x = dot3(arm, m.frame.x);
     float y = dot3(arm, m.frame.y);
     precise float square = x * x + y * y;
@@ -116,7 +114,7 @@ inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint poi
     c.base_separation[i] = base;
     c.normal_mass[i] = point_mass(r, x, y);
     c.normal_impulse[i] = impulse;
-    precise float load_speed = c.load_speed + point.normal_impulse * c.inverse_masses;
+    precise float load_speed = c.load_speed + point.normal_impulse * m.inverse_masses;
     c.load_speed = load_speed;
     return c;
 }
@@ -253,7 +251,7 @@ inline float yielding_of(vec4 normal_impulse, vec4 normal_mass, float inverse_ma
 inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing standing, vec4 normal_impulse,
                                 float inverse_mass_a, float inverse_mass_b, uint mass_told, uint height_told, Parameters p)
 {
-    precise float whole = float(c.substeps);
+    precise float whole = float(substeps_of_contact(c.counts));
     precise vec3 friction = c.friction_impulse * whole;
     manifold.tangent_impulse_1 = friction.x;
     manifold.tangent_impulse_2 = friction.y;

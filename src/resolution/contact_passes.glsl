@@ -57,7 +57,7 @@ void take_constraint(uint index)
     slot_b = slot_of(body_b);
     counts = c.counts;
     traits = c.traits;
-    substeps = c.substeps;
+    substeps = substeps_of_contact(counts);
     hub_share = c.hub_share;
     part_a = part_of_change(traits, inertia_a.traits);
     part_b = part_of_change(traits, inertia_b.traits);

@@ -33,7 +33,7 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
                                  const ManifoldRows& rows, const ManifoldImpulses& impulses) {
     const Parameters& p = state.parameters;
     const float load_speed = load_speed_so_far(c.load_speed, rows, impulses);
-    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), load_speed, p);
+    const Substep substep = make_substep(substeps_of_contact(c.counts), is_against_static(c.traits), load_speed, p);
     const bool moves = pass != ContactPass::Relax && is_against_static(c.traits);
     PassTarget target{};
     target.friction = make_friction_target(rows, impulses.normal);
@@ -41,7 +41,7 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     target.moved_since = pass == ContactPass::Relax;
     const BodyDelta &delta_a = state.deltas[c.body_a], &delta_b = state.deltas[c.body_b];
     target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
-    target.half_h = moves ? 0.5f * substep_length(c.substeps, p) : 0.0f;
+    target.half_h = moves ? 0.5f * substep_length(substeps_of_contact(c.counts), p) : 0.0f;
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != ContactPass::Relax, substep, p);
     if (pass == ContactPass::Relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
@@ -51,10 +51,10 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
 /// Instead of the pass that has found the hit, whose result was not put back.
 inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before, ContactConstraint& c,
                                    const ManifoldRows& rows, const PassTarget& target) {
-    const Substep substep = make_substep(c.substeps, is_against_static(c.traits), c.load_speed, state.parameters);
+    const Substep substep = make_substep(substeps_of_contact(c.counts), is_against_static(c.traits), c.load_speed, state.parameters);
     const BodyDelta delta_a = shifted(state.deltas[c.body_a], state.warm_starts[c.body_a]);
     const BodyDelta delta_b = shifted(state.deltas[c.body_b], state.warm_starts[c.body_b]);
-    const float h = substep_length(c.substeps, state.parameters);
+    const float h = substep_length(substeps_of_contact(c.counts), state.parameters);
     const auto falling = [&](uint body, const BodyVelocity& velocity) {
         return falling_acceleration(velocity, state.warm_starts[body], state.properties[body], state.inertias[body],
                                     state.loads[body], h, state.parameters);
@@ -91,7 +91,7 @@ inline void put_velocity(CpuState& state, uint index, ContactPass pass, uint tic
 
 inline void pass_over_constraint(CpuState& state, ContactPass pass, uint tick, uint index) {
     ContactConstraint& c = state.constraints[index];
-    if (substep_at(tick, c.traits) >= c.substeps) return;
+    if (substep_at(tick, c.traits) >= substeps_of_contact(c.counts)) return;
     const ManifoldRows rows = make_rows(c, state.inertias[c.body_a], state.inertias[c.body_b]);
     const ManifoldState before{{state.velocities[c.body_a], state.velocities[c.body_b]}, make_impulses(c), false};
     ManifoldState s = before;

@@ -7,14 +7,8 @@
 
 inline bool is_hub_colour(uint colour) { return colour >= k_first_hub_colour && colour < k_max_colours; }
 
-inline float share_inverse_mass(float inverse_mass, float share, uint its_traits)
-{
-    precise float of_share = inverse_mass * reciprocal(share);
-    return choose((its_traits & k_trait_hub) != 0u, of_share, inverse_mass);
-}
-
 // What a constraint does to the hub itself, of the velocities that its share had before and has after a pass. The linear
-// part is the hub's already, as BodyVelocity::inverse_mass is.
+// part is the hub's already, as apply_impulse takes all of its mass.
 inline HubChange change_of_hub(uint body, BodyVelocity before, BodyVelocity after, float share, uint tick)
 {
     precise vec3 linear = after.linear - before.linear;

@@ -18,7 +18,7 @@ struct ContactToPrepare {
     uint index; ///< the constraint's
     uint manifold;
     uint colour;
-    uint order;      ///< see contact_order.shared.glsl
+    uint order;      ///< see contact_counts.shared.glsl
     float hub_share; ///< 1 but in the colours of hubs
 };
 

@@ -93,7 +93,7 @@ TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::ui
             three_of(gap),
             floatBitsToUint(gap.w),
             three_of(mass),
-            floatBitsToUint(mass.w),
+            mass.w,
             all_of(cell(6)),
             all_of(cell(7)),
             all_of(cell(8)),
@@ -126,9 +126,9 @@ TALUS_LANE void put_constraints(const CpuState& state, const std::uint32_t* plac
         uintBitsToFloat(c.counts));
     put_3(1, c.normal, c.friction);
     put_3(2, c.centre_a, c.restitution);
-    put_3(3, c.centre_b, c.inverse_masses);
+    put_3(3, c.centre_b, c.inverse_mass_a);
     put_3(4, c.gap, uintBitsToFloat(c.traits));
-    put_3(5, c.friction_mass, uintBitsToFloat(c.substeps));
+    put_3(5, c.friction_mass, c.inverse_mass_b);
     put_4(6, c.x);
     put_4(7, c.y);
     put_4(8, c.lever);
@@ -234,7 +234,7 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
         c = choose(has_point(i), add_point(c, static_cast<int>(i), points_at(state, points[i]), meeting, response), c);
     const Lanes force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
     c.base_separation =
-        lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, state.parameters);
+        lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, state.parameters);
     put_constraints(state, places, lanes, c);
 }
 
@@ -355,7 +355,7 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
         places.constraint[lane] = index;
         places.body_a.bytes[lane] = sizeof(engine::BodyVelocity) * c.body_a;
         places.body_b.bytes[lane] = sizeof(engine::BodyVelocity) * c.body_b;
-        batch.ticks = join_ticks(batch.ticks, c.substeps, c.traits);
+        batch.ticks = join_ticks(batch.ticks, engine::substeps_of_contact(c.counts), c.traits);
         if ((c.traits & (k_trait_hub | k_trait_hub << engine::k_traits_of_b)) != 0)
             places.hub_change[lane] = index - state.colour_offsets[k_first_hub_colour];
     }
@@ -363,12 +363,12 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
     batch.body_a = c.body_a;
     batch.body_b = c.body_b;
     batch.traits = c.traits;
-    batch.substeps = c.substeps;
+    batch.substeps = substeps_of_contact(c.counts);
     batch.hub_share = c.hub_share;
     batch.load_speed = c.load_speed;
     const Mask against_static = is_against_static(c.traits);
-    batch.substep = make_substep(c.substeps, against_static, c.load_speed, state.parameters);
-    batch.half_h = choose(against_static, 0.5f * substep_length(c.substeps, state.parameters), 0.0f);
+    batch.substep = make_substep(batch.substeps, against_static, c.load_speed, state.parameters);
+    batch.half_h = choose(against_static, 0.5f * substep_length(batch.substeps, state.parameters), 0.0f);
     batch.gap = c.gap;
     batch.base_separation = c.base_separation;
     const BodyInertia inertia_a = inertias_at(state, places.body_a), inertia_b = inertias_at(state, places.body_b);

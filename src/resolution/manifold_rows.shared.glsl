@@ -27,7 +27,9 @@ struct Meeting {
     vec3 centre_b;
     BodyInertia inertia_a;
     BodyInertia inertia_b;
-    float inverse_masses; // 1/kg, the sum of both
+    float inverse_mass_a; // 1/kg
+    float inverse_mass_b;
+    float inverse_masses; // the sum, of the shares of hubs
 };
 
 struct VelocityPair {
@@ -173,6 +175,13 @@ inline BodyInertia share_inertia(BodyInertia m, float hub_share, uint its_traits
     return share;
 }
 
+inline float share_inverse_mass(float inverse_mass, float hub_share, uint its_traits)
+{
+    if (all_lanes((its_traits & k_trait_hub) == 0u)) return inverse_mass;
+    precise float of_share = inverse_mass * reciprocal(hub_share);
+    return choose_active((its_traits & k_trait_hub) != 0u, of_share, inverse_mass);
+}
+
 inline Meeting make_meeting(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)
 {
     Meeting m;
@@ -181,7 +190,11 @@ inline Meeting make_meeting(ContactConstraint c, BodyInertia inertia_a, BodyIner
     m.centre_b = c.centre_b;
     m.inertia_a = share_inertia(inertia_a, c.hub_share, c.traits);
     m.inertia_b = share_inertia(inertia_b, c.hub_share, c.traits >> k_traits_of_b);
-    m.inverse_masses = c.inverse_masses;
+    m.inverse_mass_a = c.inverse_mass_a;
+    m.inverse_mass_b = c.inverse_mass_b;
+    precise float inverse_masses = share_inverse_mass(c.inverse_mass_a, c.hub_share, c.traits) +
+                                   share_inverse_mass(c.inverse_mass_b, c.hub_share, c.traits >> k_traits_of_b);
+    m.inverse_masses = inverse_masses;
     return m;
 }
 
@@ -242,8 +255,8 @@ inline VelocityPair apply_impulse(VelocityPair v, Meeting m, SpatialVector whole
     vec3 moment = to_world(m.frame, whole.angular);
     precise vec3 torque_a = cross3(m.centre_a, impulse) + (moment + moment_a);
     precise vec3 torque_b = cross3(m.centre_b, impulse) + (moment + moment_b);
-    precise vec3 linear_a = v.a.linear - impulse * v.a.inverse_mass;
-    precise vec3 linear_b = v.b.linear + impulse * v.b.inverse_mass;
+    precise vec3 linear_a = v.a.linear - impulse * m.inverse_mass_a;
+    precise vec3 linear_b = v.b.linear + impulse * m.inverse_mass_b;
     precise vec3 angular_a = v.a.angular - multiply_inertia(m.inertia_a, torque_a);
     precise vec3 angular_b = v.b.angular + multiply_inertia(m.inertia_b, torque_b);
     v.a.linear = linear_a;

@@ -7,7 +7,7 @@
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
+#include "resolution/contact_counts.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
@@ -90,6 +90,6 @@ void main()
         c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), meeting, response);
     }
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
-    c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, c.substeps, c.traits, parameters);
+    c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, parameters);
     pack_ContactConstraint(constraints, index, c);
 }

@@ -10,6 +10,7 @@
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "resolution/body.shared.glsl"
+#include "resolution/contact_counts.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/multirate.shared.glsl"
@@ -53,7 +54,7 @@ void main()
     }
     for (; index < end; ++index) {
         uint substep = substep_at(args.z, cell_in_block(constraints, index, 4u).w); // its traits
-        if (substep >= cell_in_block(constraints, index, 5u).w) continue;           // its substeps
+        if (substep >= substeps_of_contact(cell_in_block(constraints, index, 0u).w)) continue;
         take_constraint(index);
         PassTarget target;
         if (args.y != k_warm_start) target = target_of_pass(args.y);

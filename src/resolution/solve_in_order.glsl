@@ -3,9 +3,10 @@
 // other. Where it matters that is the order of colours, and so are the bits; but a wait among all groups for each colour takes
 // longer than a contact needs to see what the one before it has stored. docs/decisions/contacts-wait-one-by-one.md.
 //
-// A velocity that is stored in such a pass has a stamp: how many contacts of the body have been solved in it, mixed with the
-// number of the pass and with all bits of the velocity. So no barrier has to stand between the two: what is loaded while it is
-// being stored, in parts, does not fit its stamp. What is stored otherwise has none, 0.
+// A velocity that is stored in such a pass has a stamp in each of its two cells: how many contacts of the body have been solved
+// in it, and in which pass that was. So no barrier has to stand between the two: either cell tells by itself whether it is the
+// one that is waited for. The first stamp stands where the inverse mass does otherwise, which the contacts know; the second is 0
+// where the velocity has no stamps. See stamp.shared.glsl.
 //
 // What a GPU runs in step is at manifolds of one colour at a time, none of which waits for another one.
 //
@@ -15,45 +16,63 @@
 
 uint passes_in_order = 0u; // so far
 
-uint rotated(uint word, uint bits) { return word << bits | word >> (32u - bits); }
-
-// Odd. Each word has its own factor (odd ones without a pattern) and rotation, so that changes of a few of its bits, which is
-// all that changes where bodies rest, do not make up for those of another word, or of the number.
-uint stamp_of(BodyVelocityCells v, uint number)
-{
-    uint linear = v.cell_0.x * 0x9e3779b1u + rotated(v.cell_0.y, 5u) * 0x85ebca77u + rotated(v.cell_0.z, 10u) * 0xc2b2ae3du;
-    uint angular = v.cell_1.x * 0x165667b1u + rotated(v.cell_1.y, 5u) * 0xd3a2646du + rotated(v.cell_1.z, 10u) * 0xfd7046c5u;
-    uint sum = linear + angular + rotated(v.cell_0.w, 15u) * 0x27d4eb2fu + number * 0xb55a4f09u;
-    return (sum ^ sum >> 15) | 1u;
-}
-
 // Where so many contacts of a body have been solved in this pass.
 uint number_after(uint contacts) { return k_max_colours * passes_in_order + contacts; }
+
+uint stamp_of(uvec4 cell, uint number) { return stamp_of(cell.x, cell.y, cell.z, number); }
+bool has_stamp(uvec4 cell, uint number) { return is_stamp(cell.w, stamp_of(cell, number)); }
+bool has_stamps(BodyVelocityCells velocity) { return velocity.cell_1.w != 0u; }
 
 // Whether the velocity is the one that follows `earlier` contacts. Before the first one all have waited for each other.
 bool is_after(BodyVelocityCells velocity, uint earlier)
 {
-    return earlier == 0u || velocity.cell_1.w == stamp_of(velocity, number_after(earlier));
+    uint number = number_after(earlier);
+    return earlier == 0u || has_stamp(velocity.cell_0, number) && has_stamp(velocity.cell_1, number);
+}
+
+bool is_frozen(BodyVelocityCells velocity)
+{
+    return has_stamps(velocity) ? (velocity.cell_0.w & k_stamp_of_frozen) != 0u : velocity.cell_0.w == 0u;
+}
+
+BodyVelocity without_stamps(BodyVelocityCells cells, uint body)
+{
+    BodyVelocity velocity = unpack(cells);
+    if (!has_stamps(cells)) return velocity;
+    velocity.inverse_mass = is_frozen(cells) ? 0.0 : unpack(properties[body]).inverse_mass;
+    velocity.stamp = 0u;
+    return velocity;
+}
+
+BodyVelocity load_velocity(uint body)
+{
+    BodyVelocityCells cells = velocities[body];
+    return without_stamps(cells, body);
 }
 
 // What contacts make of a body. Nobody waits for what they cannot push. `is_end`: no pass over the body follows.
-void store_in_order(uint body, uint its_traits, BodyVelocity before, BodyVelocity changed, uint earlier, bool is_end)
+void store_in_order(uint body, uint its_traits, BodyVelocityCells before, BodyVelocity changed, uint earlier, bool is_end)
 {
     if ((its_traits & k_trait_movable) == 0u) return;
-    bool is_frozen = before.inverse_mass == 0.0; // in this launch: it stays as it is, but those behind wait for it
-    BodyVelocityCells stored = pack(before);
-    if (!is_frozen) stored = pack(changed);
-    stored.cell_1.w = is_end ? 0u : stamp_of(stored, number_after(earlier + 1u));
+    bool stays = is_frozen(before); // as it is, but those behind wait for it
+    if (is_end) {
+        if (has_stamps(before) || !stays) store_velocity(body, stays ? frozen_velocity() : changed);
+        return;
+    }
+    BodyVelocityCells stored = before;
+    if (!stays) stored = pack(changed);
+    uint of_frozen = stays ? k_stamp_of_frozen : 0u;
+    uint number = number_after(earlier + 1u);
+    stored.cell_0.w = stamp_of(stored.cell_0, number) | of_frozen;
+    stored.cell_1.w = stamp_of(stored.cell_1, number) | of_frozen;
     velocities[body] = stored;
 }
 
 // Where no relax pass has done so.
-void take_stamp_away(uint body)
+void take_stamps_away(uint body)
 {
     BodyVelocityCells stored = velocities[body];
-    if (stored.cell_1.w == 0u) return;
-    stored.cell_1.w = 0u;
-    velocities[body] = stored;
+    if (has_stamps(stored)) store_velocity(body, without_stamps(stored, body));
 }
 
 // ---- waits ----
@@ -191,19 +210,12 @@ void find_earlier(uint tick)
 BodyVelocityCells cells_a; // the velocity as it was at the last look
 BodyVelocityCells cells_b;
 
-bool do_fit()
+// Whether it is the turn of the contact in hand.
+bool is_turn()
 {
     cells_a = velocities[body_a];
     cells_b = velocities[body_b];
     return is_after(cells_a, earlier_a) && is_after(cells_b, earlier_b);
-}
-
-// What was loaded in parts may fit by chance. So what fits is looked at once more, when all of it is most likely there: see the
-// decision.
-bool is_turn()
-{
-    if (!do_fit()) return false;
-    return (earlier_a | earlier_b) == 0u || do_fit();
 }
 
 // Where one group is alone, its invocations meet after each look: there are implementations that run them one after the other.
@@ -226,6 +238,8 @@ void pass_in_turn(uint pass, uint index, PassTarget target)
     VelocityPair before;
     before.a = unpack(cells_a);
     before.b = unpack(cells_b);
+    before.a.inverse_mass = rows.meeting.inverse_mass_a;
+    before.b.inverse_mass = rows.meeting.inverse_mass_b;
     VelocityPair changed = solve_constraint(pass, index, target, before);
     bool is_end = pass == k_relax;
     if (k_multirate_islands && !is_end) {
@@ -234,8 +248,8 @@ void pass_in_turn(uint pass, uint index, PassTarget target)
     }
     bool is_last_of_a = is_end && is_last_of(counts, k_last_of_a);
     bool is_last_of_b = is_end && is_last_of(counts, k_last_of_b);
-    store_in_order(body_a, traits, before.a, changed.a, earlier_a, is_last_of_a);
-    store_in_order(body_b, traits >> k_traits_of_b, before.b, changed.b, earlier_b, is_last_of_b);
+    store_in_order(body_a, traits, cells_a, changed.a, earlier_a, is_last_of_a);
+    store_in_order(body_b, traits >> k_traits_of_b, cells_b, changed.b, earlier_b, is_last_of_b);
 }
 
 uint rounds = 0u;
@@ -254,23 +268,16 @@ bool goes_on(bool has_more)
 
 bool is_settled = true; // all have waited for each other since the last pass
 
-BodyVelocityCells velocity_after(uint contacts, uint body)
+// If they have not, all contacts of the body have had a sub-step in it, and a body that contacts do not push does not move.
+BodyVelocity load_settled_velocity(uint body, uint its_traits)
 {
+    uint contacts = is_settled ? 0u : contacts_of_body(its_traits);
     uint looks = 0u;
     BodyVelocityCells cells = velocities[body];
     while (!is_after(cells, contacts) && looks_again(looks))
         cells = velocities[body];
     if (!is_after(cells, contacts)) give_up();
-    return cells;
-}
-
-// If they have not, all contacts of the body have had a sub-step in it, and a body that contacts do not push does not move.
-BodyVelocity load_settled_velocity(uint body, uint its_traits)
-{
-    uint contacts = is_settled ? 0u : contacts_of_body(its_traits);
-    BodyVelocityCells cells = velocity_after(contacts, body);
-    if (contacts > 0u) cells = velocity_after(contacts, body); // twice: see is_turn
-    return unpack(cells);
+    return without_stamps(cells, body);
 }
 
 void pass_over_contacts(uint pass, uint tick, bool ends_tick)

@@ -7,6 +7,7 @@
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
+#include "resolution/contact_counts.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/multirate.shared.glsl"

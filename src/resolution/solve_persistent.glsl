@@ -13,7 +13,7 @@
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
+#include "resolution/contact_counts.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
@@ -22,6 +22,7 @@
 #include "resolution/contact.shared.glsl"
 #include "resolution/hub.shared.glsl"
 #include "resolution/hit.shared.glsl"
+#include "resolution/stamp.shared.glsl"
 
 layout(local_size_x = 256) in; // more have too few registers, and a hub takes k_hub_group
 
@@ -43,12 +44,7 @@ void store_velocity(uint body, BodyVelocity velocity)
     velocities[body] = pack(velocity);
 }
 
-// A coherent block's member is no argument: NVIDIA's compiler refuses it.
-BodyVelocity load_velocity(uint body)
-{
-    BodyVelocityCells velocity = velocities[body];
-    return unpack(velocity);
-}
+BodyVelocity load_velocity(uint body); // see solve_in_order.glsl
 
 #include "resolution/stored_deltas.glsl"
 
@@ -63,7 +59,7 @@ void put_change(uint index, HubChange change)
     hub_changes[index - colour_offsets[k_first_hub_colour]] = change;
 }
 
-// As of load_velocity.
+// A coherent block's member is no argument: NVIDIA's compiler refuses it.
 HubChange load_change(uint i)
 {
     HubChange change = hub_changes[i];
@@ -135,8 +131,8 @@ void integrate_own_bodies(uint tick)
         }
         if (k_multirate_islands && tick == 0u) forget_fast_colours(body);
         integrate_body(body, tick);
-        bool keeps_stamp = parameters.relax == 0u && tick == like_substeps * ticks_apart;
-        if (keeps_stamp && is_own(unpack(inertias[body]))) take_stamp_away(body);
+        bool keeps_stamps = parameters.relax == 0u && tick == like_substeps * ticks_apart;
+        if (keeps_stamps && is_own(unpack(inertias[body]))) take_stamps_away(body);
     }
 }
 

@@ -61,7 +61,7 @@ bool has_substep(uint index, uint tick)
 {
     if (tick < (k_multirate_islands ? 1u : parameters.least_substeps)) return true;
     if (k_notes_unlike && !has_mark()) return most_have_substep(tick);
-    uint its_substeps = index == index_in_hand ? substeps : cell_in_block(constraints, index, 5u).w;
+    uint its_substeps = index == index_in_hand ? substeps : substeps_of_contact(cell_in_block(constraints, index, 0u).w);
     if (!k_multirate_islands) return tick < its_substeps;
     return substep_at(tick, index == index_in_hand ? traits : cell_in_block(constraints, index, 4u).w) < its_substeps;
 }

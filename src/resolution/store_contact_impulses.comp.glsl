@@ -15,7 +15,7 @@
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/hub.shared.glsl"
 #include "resolution/island.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
+#include "resolution/contact_counts.shared.glsl"
 #include "resolution/contact_constraint.shared.glsl"
 
 layout(local_size_x = 64) in;
@@ -38,7 +38,7 @@ void main()
     vec4 impulse = vec4(0.0);
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= point_count_of(c.counts)) continue;
-        float of_step = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], c.substeps);
+        float of_step = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], substeps_of_contact(c.counts));
         manifold_points[4u * c.manifold + i].cell_2.w = floatBitsToUint(of_step); // its normal_impulse
         impulse[i] = of_step;
     }

@@ -16,7 +16,7 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch& launch)
         vec4 impulse(0.0f);
         ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * c.manifold];
         for (int i = 0; i < static_cast<int>(point_count_of(c.counts)); ++i) {
-            impulse[i] = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], c.substeps);
+            impulse[i] = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], substeps_of_contact(c.counts));
             points[i].normal_impulse = impulse[i];
         }
         manifold.colour = colour_of_step(state.manifold_keys[index], c.traits);

@@ -70,7 +70,7 @@ namespace talus::engine {
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
-    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffufffuffffffffffffffffffffffffffffffffffffffff", \
+    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffuffffffffffffffffffffffffffffffffffffffffffff", \
       Result)                                                                                                          \
     X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
     X(FastColours, fast_colours, uint, "u", Scratch)                                                                   \

@@ -27,9 +27,10 @@ namespace talus::engine {
 #include "broad_phase/tree.shared.glsl"
 
 #include "resolution/contact_frame.shared.glsl"
-#include "resolution/contact_order.shared.glsl"
+#include "resolution/contact_counts.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/softness.shared.glsl"
+#include "resolution/stamp.shared.glsl"
 
 #include "resolution/multirate.shared.glsl"
 

@@ -144,17 +144,17 @@ struct ContactConstraint {
     uint body_a;
     uint body_b;
     uint manifold;
-    uint counts; // of its points, and of what is solved before it at each body: see resolution/contact_order.shared.glsl
+    uint counts; // points, sub-steps, contacts that come before it: see resolution/contact_counts.shared.glsl
     vec3 normal;
     float friction;
     vec3 centre_a; // m, the middle of the points from A's centre
     float restitution;
     vec3 centre_b; // m, from B's centre
-    float inverse_masses; // 1/kg, the sum of both
+    float inverse_mass_a; // 1/kg
     vec3 gap;             // m, from A's middle of the points to B's, at the start of the step
     uint traits;          // k_trait_* of A, and of B four bits higher; k_trait_whole_hub; the rate
     vec3 friction_mass;   // kg, kg, kg m^2: along the frame's x and y, and about the normal
-    uint substeps;
+    float inverse_mass_b;
     vec4 x; // m, from the middle of the points, in the contact's frame
     vec4 y;
     vec4 lever;           // m, the distance from the middle
