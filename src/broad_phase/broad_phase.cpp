@@ -31,7 +31,9 @@ static void reserve_tree(Device& device) {
     const auto reserve = [&](BufferId buffer, std::size_t bytes) {
         if (device.size(buffer) < bytes) device.grow(buffer, bytes);
     };
-    reserve(BufferId::TreeNodes, (tree_node(0, 0, tree_top(capacity)) + std::size_t{capacity}) * sizeof(Aabb));
+    // Children are looked at by fours, also where the last ones are not there.
+    const std::size_t leaves = std::size_t{capacity} + k_tree_children - 1;
+    reserve(BufferId::TreeNodes, (tree_node(0, 0, tree_top(capacity)) + leaves) * sizeof(Aabb));
     reserve(BufferId::Partners, std::size_t{k_kept_partners} * capacity * sizeof(uint));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body in sorted order: searches the tree for the boxes after its own that overlap it. Those that no face
-// keeps apart from it are its partners. The way through the tree is the sorted order itself, so there is no stack: a node
-// that does not overlap is passed over, one that does is entered at its first child. Neighbours in a group take much the
-// same way.
+// keeps apart from it are its partners. The way through the tree is the sorted order itself. A load waits for the one before,
+// so all children of a node are loaded at once, and those to be entered are kept as bits: four for each level. Neighbours in a
+// group take much the same way.
 // Run twice: args.x = 0 counts, and keeps the first k_kept_partners; 1 writes these at the scanned offset and goes on
 // from the last of them if there are more. args.y: the root's shift.
 // Reads: Counters, TreeNodes, TreeGrids, SortValues, OrientedBoxes.
@@ -56,31 +56,79 @@ uint take_kept(uint end)
     return count > k_kept_partners ? partner + 1u : end;
 }
 
+Aabb box; // its own
+uint end; // of the bodies that are there
+
+// Which of a node's children, at that shift, overlap the body's box, of those from one on: a bit for each. All four boxes are
+// loaded at once.
+uint overlapping_children(uint node, uint shift, uint from_child)
+{
+    uint first = node * k_tree_children;
+    uint overlapping = 0u;
+    for (uint child = 0u; child < k_tree_children; ++child) {
+        uint child_place = (first + child) << shift;
+        bool overlaps = is_candidate(box, unpack(tree_nodes[tree_node(child_place, shift, args.y)]));
+        if (overlaps && child >= from_child && child_place < end) overlapping |= 1u << child;
+    }
+    return overlapping;
+}
+
+// The children still to be entered: four bits for each level, those of the lowest ones first.
+uvec2 pending = uvec2(0u);
+
+void add_pending(uint children, uint shift)
+{
+    uint bit = shift / k_tree_bits * k_tree_children;
+    if (bit < 32u)
+        pending.x |= children << bit;
+    else
+        pending.y |= children << (bit - 32u);
+}
+
+uint take_lowest_pending()
+{
+    uint bit = pending.x != 0u ? uint(findLSB(pending.x)) : 32u + uint(findLSB(pending.y));
+    if (pending.x != 0u)
+        pending.x &= pending.x - 1u;
+    else
+        pending.y &= pending.y - 1u;
+    return bit;
+}
+
 void main()
 {
     own = item_index();
     if (own >= counters[k_counter_search_count]) return;
-    uint end = tree_grids[0].end;
-    uint place = own + 1u;
+    end = tree_grids[0].end;
+    uint from = own + 1u;
     body = sort_values[own];
     if (args.x == 1u) {
         offset = pair_counts[own];
-        place = take_kept(end);
-        if (place >= end) return;
+        from = take_kept(end);
+        if (from >= end) return;
     }
-    Aabb box = unpack(tree_nodes[tree_node(own, 0u, args.y)]);
+    box = unpack(tree_nodes[tree_node(own, 0u, args.y)]);
     OrientedBox oriented = unpack(oriented_boxes[body]);
-    uint shift = tree_shift_from(place);
-    while (place < end) {
-        bool overlaps = is_candidate(box, unpack(tree_nodes[tree_node(place, shift, args.y)]));
-        if (overlaps && shift > 0u) {
-            shift -= k_tree_bits;
-        } else {
-            if (overlaps && !faces_part(oriented, unpack(oriented_boxes[sort_values[place]]))) take(place);
-            place += 1u << shift;
-            shift = tree_shift_from(place);
+    uint place = from; // that the search has come to
+    uint top = from < end ? args.y : 0u;
+    uint base = 0u; // the shift of those that follow the place `from` in its node, and then in nodes further up
+    if (top > 0u) add_pending(overlapping_children(from >> k_tree_bits, 0u, from % k_tree_children), 0u);
+    while (base < top) {
+        if (pending == uvec2(0u)) {
+            base += k_tree_bits;
+            uint around = from >> base;
+            if (base < top) add_pending(overlapping_children(around / k_tree_children, base, around % k_tree_children + 1u), base);
+            continue;
         }
+        uint next = take_lowest_pending();
+        uint shift = next / k_tree_children * k_tree_bits;
+        uint node = (place >> shift) / k_tree_children * k_tree_children + next % k_tree_children;
+        place = node << shift;
+        if (shift > 0u)
+            add_pending(overlapping_children(node, shift - k_tree_bits, 0u), shift - k_tree_bits);
+        else if (!faces_part(oriented, unpack(oriented_boxes[sort_values[place]])))
+            take(place);
     }
-    if (place < end) atomicOr(counters[k_counter_did_not_fit], k_fit_search);
+    if (base < top) atomicOr(counters[k_counter_did_not_fit], k_fit_search);
     if (args.x == 0u) pair_counts[own] = found;
 }

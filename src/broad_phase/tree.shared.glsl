@@ -7,7 +7,8 @@
 // A height is written as a shift, 2 h: a node is the places of equal place >> shift. Nodes lie level by level from the
 // root, so that the four children of a node are 128 bytes in a row.
 
-const uint k_tree_bits = 2u;  // four children a node
+const uint k_tree_bits = 2u;
+const uint k_tree_children = 1u << k_tree_bits; // of a node; those of 16 levels have a bit each in 64
 const uint k_tree_group = 256u; // nodes that one work group treats
 const uint k_tree_shift = 8u;   // and how much higher the one node is that they come to
 
