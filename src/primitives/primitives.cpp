@@ -11,7 +11,7 @@ static_assert(k_scan_tile == k_scan_group * k_scan_run);
 static_assert(k_digits == 1u << k_digit_bits);
 static_assert(k_sort_group == k_digits && k_sort_group == 32 * k_mask_words && k_sort_tile % k_sort_group == 0);
 
-// Up to here one group is done before three dependent dispatches would be.
+// Up to here one group is done before two dependent dispatches would be.
 constexpr uint k_longest_group_scan = 4 * k_scan_tile;
 
 constexpr std::size_t k_cell_bytes = 16; // records are rows of cells
@@ -29,14 +29,13 @@ void scan(Device& device, BufferId values, uint capacity, uint count_counter, ui
         device.run({.kernel = scan_group, .items = 1, .args = args, .bindings = {{"Values", values}}});
         return;
     }
-    // The sums are one for every k_scan_tile values. `divisor` things make `factor` values, and factor divides the
-    // tile.
-    const std::array<uint, 4> sum_args{count_counter, total_counter, divisor * (k_scan_tile / factor), 1};
     reserve_words(device, BufferId::ScanSums, divide_up(value_capacity, k_scan_tile));
     device.run({.kernel = sum_tiles, .items = value_capacity, .args = args, .bindings = {{"Values", values}}});
-    device.run({.kernel = scan_group, .items = 1, .args = sum_args, .bindings = {{"Values", BufferId::ScanSums}}});
     device.run({.kernel = scan_tiles, .items = value_capacity, .args = args, .bindings = {{"Values", values}}});
 }
+
+/// Up to here each group that scatters keys is quicker to add up the counts of all tiles than a scan of them is.
+constexpr uint k_most_added_tiles = 256;
 
 /// A pass for every digit, from the lowest up, each stable.
 void sort_digit_by_digit(Device& device, const Sort& sort) {
@@ -45,14 +44,16 @@ void sort_digit_by_digit(Device& device, const Sort& sort) {
     reserve_words(device, sort.values_swap, device.size(sort.values) / sizeof(uint));
     reserve_words(device, BufferId::DigitCounts, scan_count(sort.capacity, k_sort_tile, k_digits));
 
+    const uint adds_up = divide_up(sort.capacity, k_sort_tile) <= k_most_added_tiles ? 1 : 0;
     for (uint shift = 0; shift < sort.bits; shift += k_digit_bits) {
-        const std::array<uint, 4> args{sort.count_counter, shift};
+        const std::array<uint, 4> args{sort.count_counter, shift, adds_up};
         device.run({.kernel = count_digits,
                     .items = sort.capacity,
                     .slot = sort.slot,
                     .args = args,
                     .bindings = {{"Keys", sort.keys}}});
-        scan(device, BufferId::DigitCounts, sort.capacity, sort.count_counter, k_none, k_sort_tile, k_digits);
+        if (adds_up == 0)
+            scan(device, BufferId::DigitCounts, sort.capacity, sort.count_counter, k_none, k_sort_tile, k_digits);
         device.run({.kernel = scatter_keys,
                     .items = sort.capacity,
                     .slot = sort.slot,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Exclusive prefix sums by a single work group, tile after tile: all of a short scan, the tile sums of a long one.
+// Exclusive prefix sums by a single work group, tile after tile.
 // One invocation is a run of k_scan_run values of each tile; launched as one group.
 // Reads: Values; Counters[args.x], the count from which scan_count(.., args.z, args.w) makes the number of values.
 // Writes: Values, in place; their total to Counters[args.y] unless args.y is k_none.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Last part of a pass of the radix sort: every key and its value go to their place; equal digits keep their order.
 // One invocation is a key of each row of the tile, and a digit value between rows; one group is a tile.
-// Reads: Keys, Values; DigitCounts after its scan; Counters[args.x], the number of keys. args.y: first bit of the digit.
+// Reads: Keys, Values; DigitCounts; Counters[args.x], the number of keys. args.y: first bit of the digit. args.z: 1 where the
+// counts have not been scanned, and each group adds them up itself.
 // Writes: SortedKeys, SortedValues.
-// Needs: a barrier after the scan. Each invocation sets its own bit, so the order of the atomics does not show.
+// Needs: a barrier after the counting, or the scan. Each invocation sets its own bit, so the order of the atomics does not show.
 // Overflow: none; every key has a place of its own below the number of keys.
 #include "primitives/primitives.shared.glsl"
+#include "primitives/group_scan.glsl"
 
 layout(local_size_x = 256) in; // k_sort_group
 
@@ -22,6 +24,21 @@ shared uint places[k_digits];
 // clear neighbouring words.
 shared uint masks[k_mask_words * k_digits];
 
+// Of the first key of the tile with the digit value that is the invocation's. Every invocation must call it.
+uint place_of_first(uint tile, uint tile_count)
+{
+    uint me = gl_LocalInvocationID.x;
+    if (args.z == 0u) return digit_counts[digit_count_index(me, tile, tile_count)];
+    uint in_all_tiles = 0u;
+    uint in_tiles_before = 0u;
+    for (uint each = 0u; each < tile_count; ++each) {
+        if (each == tile) in_tiles_before = in_all_tiles;
+        in_all_tiles += digit_counts[digit_count_index(me, each, tile_count)];
+    }
+    uint key_count;
+    return group_scan(in_all_tiles, key_count) + in_tiles_before;
+}
+
 void main()
 {
     uint key_count = counters[args.x];
@@ -32,7 +49,7 @@ void main()
     uint me = gl_LocalInvocationID.x;
     uint my_word = me / 32u;
     uint my_bit = 1u << (me % 32u);
-    places[me] = digit_counts[digit_count_index(me, tile, tile_count)];
+    places[me] = place_of_first(tile, tile_count);
     for (uint word = 0u; word < k_mask_words; ++word)
         masks[word * k_digits + me] = 0u;
     barrier();

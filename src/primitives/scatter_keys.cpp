@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of scatter_keys.comp.glsl.
+#include <numeric>
+
 #include "device/cpu/cpu_state.h"
 #include "primitives/kernels.h"
 
@@ -13,6 +15,9 @@ static void scatter_keys_on_cpu(CpuState& state, const Launch& launch) {
     const uint key_count = state.counters[launch.args[0]];
     const uint shift = launch.args[1];
     const uint tile_count = divide_up(key_count, k_sort_tile);
+
+    uint* const counts = state.digit_counts.data;
+    if (launch.args[2] == 1) std::exclusive_scan(counts, counts + tile_count * k_digits, counts, 0u);
 
     const auto scatter_tile = [&](uint tile) {
         std::array<uint, k_digits> places;

@@ -3,7 +3,7 @@
 // One invocation is a run of k_scan_run values; one group is a tile.
 // Reads: Values; Counters[args.x], the count from which scan_count(.., args.z, args.w) makes the number of values.
 // Writes: ScanSums, one a tile.
-// Needs: a barrier before scan_group, which scans ScanSums.
+// Needs: a barrier before scan_tiles.
 // Overflow: none; tiles beyond the number of values write nothing.
 #include "primitives/primitives.shared.glsl"
 #include "primitives/group_scan.glsl"
