@@ -24,9 +24,8 @@ static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel
         device.run({.kernel = kernel, .slot = k_dispatch_manifolds, .args = {first, plan.near_pairs}});
 }
 
-/// The islands of a large world, and which of them a work group solves.
+/// The islands of a large world, behind begin_islands, and which of them a work group solves.
 static void find_island_groups(Device& device, const StepPlan& plan) {
-    device.run({.kernel = begin_islands, .items = plan.body_count});
     device.run({.kernel = join_islands, .slot = k_dispatch_pairs});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_body_count, k_none);
@@ -43,11 +42,14 @@ void wake(Device& device, const StepPlan& plan) {
 }
 
 static void make_graph(Device& device, const StepPlan& plan) {
-    device.run({.kernel = clear_colours, .items = plan.body_count});
+    // Colours and islands are found beside each other.
+    const bool measures_islands = plan.measures_islands();
+    device.run({.kernel = clear_colours, .items = plan.body_count, .overlaps_next = measures_islands});
+    if (measures_islands) device.run({.kernel = begin_islands, .items = plan.body_count});
     device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
-    device.run({.kernel = assign_colours, .items = plan.colouring_groups});
+    device.run({.kernel = assign_colours, .items = plan.colouring_groups, .overlaps_next = measures_islands});
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
-    if (plan.measures_islands()) find_island_groups(device, plan);
+    if (measures_islands) find_island_groups(device, plan);
     sort_by_key(device, {.keys = BufferId::ManifoldKeys,
                          .values = BufferId::ManifoldOrder,
                          .keys_swap = BufferId::SortedManifoldKeys,
