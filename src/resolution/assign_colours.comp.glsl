@@ -47,48 +47,66 @@ void wait_for_workers()
 }
 
 struct Edge {
+    uint pair; // k_none: it has a colour
+    Manifold manifold;
+    bool movable[2]; // A, B
     uint rank;
-    uint body[2];
-    bool obstructs[2]; // the body may be in the edge's colour once only
-    bool is_shared;    // it takes one of the colours for hubs
-    uint colour;       // that it would take now
     uint hub;          // k_none where there is none, or two
     uint part;         // of the hub's load
+    uint colour;       // that it would take now
+    bool is_shared;    // that is one of the colours for hubs
+    bool obstructs[2]; // A, B may be in the edge's colour once only
 };
 
-Edge load_edge(uint pair)
+// Of an entry of the list: kept from round to round, as most invocations have one only.
+Edge edge;
+uint entry_in_hand = k_none;
+
+uint body_at(uint end) { return end == 0u ? edge.manifold.body_a : edge.manifold.body_b; }
+
+void find_colour()
 {
-    Manifold manifold = manifolds[pair];
-    Edge edge;
-    edge.body[0] = manifold.body_a;
-    edge.body[1] = manifold.body_b;
-    edge.hub = hub_of(manifold);
-    edge.part = 0u;
     uint low = 0u;
     uint high = 0u;
     uint high_of_other = 0u; // than the hub
-    bool movable[2];
     for (uint end = 0u; end < 2u; ++end) {
-        movable[end] = is_movable(shapes[edge.body[end]]);
-        if (!movable[end]) continue;
-        uint its_high = body_colours[body_word(edge.body[end], k_used_high)];
-        low |= body_colours[body_word(edge.body[end], k_used_low)];
+        if (!edge.movable[end]) continue;
+        uint its_high = body_colours[body_word(body_at(end), k_used_high)];
+        low |= body_colours[body_word(body_at(end), k_used_low)];
         high |= its_high;
-        if (edge.body[end] != edge.hub) high_of_other = its_high;
+        if (body_at(end) != edge.hub) high_of_other = its_high;
     }
-    bool both_movable = movable[0] && movable[1];
-    uint usable = is_found_hub(edge.body[0]) && is_found_hub(edge.body[1]) ? 0u : parameters.usable_colours;
-    if (edge.hub != k_none) {
-        edge.part = part_of_load(manifold, uintBitsToFloat(manifold_keys[pair]), edge.hub);
-        usable = colours_of_hubs_edge(manifold, edge.part, edge.hub, both_movable);
-    }
+    bool both_movable = edge.movable[0] && edge.movable[1];
+    uint usable = is_found_hub(body_at(0u)) && is_found_hub(body_at(1u)) ? 0u : parameters.usable_colours;
+    if (edge.hub != k_none) usable = colours_of_hubs_edge(edge.manifold, edge.part, edge.hub, both_movable);
     edge.colour = first_free_colour(low, high, usable, both_movable);
     edge.is_shared = edge.hub != k_none && edge.colour == k_overflow_colour;
     if (edge.is_shared) edge.colour = first_free_hub_colour(high_of_other);
     for (uint end = 0u; end < 2u; ++end)
-        edge.obstructs[end] = movable[end] && !(edge.is_shared && edge.body[end] == edge.hub);
-    edge.rank = edge_rank(edge.body[0], edge.body[1], both_movable);
-    return edge;
+        edge.obstructs[end] = edge.movable[end] && !(edge.is_shared && body_at(end) == edge.hub);
+}
+
+void take_in_hand(uint entry)
+{
+    if (entry == entry_in_hand) return;
+    entry_in_hand = entry;
+    edge.pair = uncoloured[entry];
+    if (edge.pair == k_none) return;
+    edge.manifold = manifolds[edge.pair];
+    for (uint end = 0u; end < 2u; ++end)
+        edge.movable[end] = is_movable(shapes[body_at(end)]);
+    edge.rank = edge_rank(body_at(0u), body_at(1u), edge.movable[0] && edge.movable[1]);
+    edge.hub = hub_of(edge.manifold);
+    edge.part = 0u;
+    if (edge.hub != k_none) edge.part = part_of_load(edge.manifold, uintBitsToFloat(manifold_keys[edge.pair]), edge.hub);
+    find_colour();
+}
+
+void give_colour(uint colour)
+{
+    manifold_keys[edge.pair] = colour;
+    uncoloured[entry_in_hand] = k_none;
+    edge.pair = k_none;
 }
 
 uint edges_of(uint body)
@@ -158,42 +176,42 @@ void add_load(uint pair)
 }
 
 // That the edge has no share of a hub.
-void count_unshared(Edge edge)
+void count_unshared()
 {
     for (uint end = 0u; end < 2u; ++end) {
-        if (is_found_hub(edge.body[end])) atomicAdd(body_colours[body_word(edge.body[end], k_hub_word)], 1u);
+        if (is_found_hub(body_at(end))) atomicAdd(body_colours[body_word(body_at(end), k_hub_word)], 1u);
     }
     if (edge.part > 0u) atomicAdd(body_colours[body_word(edge.hub, k_unshared_load)], edge.part);
 }
 
 void propose(uint entry, uint rank_word)
 {
-    uint pair = uncoloured[entry];
-    if (pair == k_none) return;
-    Edge edge = load_edge(pair);
+    bool is_new = entry != entry_in_hand;
+    take_in_hand(entry);
+    if (edge.pair == k_none) return;
+    if (!is_new) find_colour();
     if (edge.colour == k_overflow_colour) { // colours are never given back
-        manifold_keys[pair] = k_overflow_colour;
         atomicAdd(counters[k_counter_overflow_count], 1u);
-        count_unshared(edge);
-        uncoloured[entry] = k_none;
+        count_unshared();
+        give_colour(k_overflow_colour);
         return;
     }
     for (uint end = 0u; end < 2u; ++end) {
-        if (edge.obstructs[end]) atomicMax(body_colours[body_word(edge.body[end], rank_word)], edge.rank);
+        if (edge.obstructs[end]) atomicMax(body_colours[body_word(body_at(end), rank_word)], edge.rank);
     }
 }
 
 void decide(uint entry, uint rank_word, uint next_rank_word)
 {
-    uint pair = uncoloured[entry];
-    if (pair == k_none) return;
-    Edge edge = load_edge(pair);
+    take_in_hand(entry);
+    if (edge.pair == k_none) return;
     // Another edge of its hub may have taken a colour since it proposed: the last free one is asked for again.
+    if (edge.hub != k_none) find_colour();
     bool wins = edge.colour != k_overflow_colour;
     for (uint end = 0u; end < 2u; ++end) {
         if (edge.obstructs[end]) {
-            wins = wins && body_colours[body_word(edge.body[end], rank_word)] == edge.rank;
-            body_colours[body_word(edge.body[end], next_rank_word)] = 0u;
+            wins = wins && body_colours[body_word(body_at(end), rank_word)] == edge.rank;
+            body_colours[body_word(body_at(end), next_rank_word)] = 0u;
         }
     }
     if (!wins) {
@@ -202,14 +220,13 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
     }
     for (uint end = 0u; end < 2u; ++end) {
         if (edge.obstructs[end])
-            body_colours[body_word(edge.body[end], used_word(edge.colour))] |= used_bit(edge.colour);
+            atomicOr(body_colours[body_word(body_at(end), used_word(edge.colour))], used_bit(edge.colour));
     }
     if (!edge.is_shared) {
-        count_unshared(edge);
+        count_unshared();
         atomicMax(counters[k_counter_colour_demand], colours_down_to(edge.colour));
     }
-    manifold_keys[pair] = edge.colour;
-    uncoloured[entry] = k_none;
+    give_colour(edge.colour);
 }
 
 void colour_in_rounds(uint first, uint stride, uint entry_count)
