@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of find_islands.comp.glsl: union-find with the lower slot as the root.
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -28,7 +29,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
         const uint a = manifold.body_a, b = manifold.body_b;
         if (!is_active(manifold)) continue;
         touches[a] = touches[b] = true;
-        if (movable(a) && movable(b)) join_islands_of(roots, a, b);
+        if (movable(a) && movable(b)) join_islands_of(roots, a, b, std::identity{});
         if (!movable(a) && restless[a]) restless[b] = true;
         if (!movable(b) && restless[b]) restless[a] = true;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Islands, and the order in which manifolds stand for the solver.
 //
-// Islands are the sets of rigid bodies that contacts join; each is named by its lowest body slot. They are found by
-// union and find with the lower slot as the root, whoever comes first.
+// Islands are the sets of rigid bodies that contacts join. They are found by union and find, and each is named by the body that
+// is its root, whoever comes first: in a small world the lowest slot, in a large one the first by order_of_root.
 
 // Manifolds are sorted by what solves them, and within it by colour: by island in a small world, by group in a large one.
 inline uint manifold_key(uint island, uint colour) { return (island << k_colour_bits) | colour; }
@@ -20,6 +20,10 @@ inline bool is_multirate_island(uint word, uint least_size)
 {
     return island_size(word) >= least_size && (word & k_tall) == 0u;
 }
+
+// Mixed, and of each body another: things next to each other often have slots in a row, and with the lowest slot as the root the
+// way to it would be as long as the row.
+inline uint order_of_root(uint body) { return body * 0x9e3779b1u; }
 
 const uint k_awake = 0x80000000u; // in IslandFill, beside a count of bodies
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Union and find on the CPU: a forest in which each body leads to one of its island, and the lowest leads to itself.
+// Union and find on the CPU: a forest in which each body leads to one of its island, and the root leads to itself.
 // `parents`: anything that is indexed by body slots.
 #pragma once
-
-#include <algorithm>
 
 #include "state/dialect.h"
 
@@ -16,10 +14,14 @@ template <typename Parents> uint root_of(Parents& parents, uint body) {
     return body;
 }
 
-/// Hangs the larger root below the smaller one.
-template <typename Parents> void join_islands_of(Parents& parents, uint a, uint b) {
+/// The root of both is the one whose order(root) is lower.
+template <typename Parents, typename Order>
+void join_islands_of(Parents& parents, uint a, uint b, const Order& order) {
     const uint root_a = root_of(parents, a), root_b = root_of(parents, b);
-    parents[std::max(root_a, root_b)] = std::min(root_a, root_b);
+    if (order(root_a) < order(root_b))
+        parents[root_b] = root_a;
+    else
+        parents[root_a] = root_b;
 }
 
 } // namespace talus::engine

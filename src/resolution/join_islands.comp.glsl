@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a pair: joins the islands of two bodies that touch, by hanging the larger root below the smaller one
+// One invocation is a pair: joins the islands of two bodies that touch, by hanging one root below the other
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
 // sub-steps of the manifold that asks for most. What contacts cannot push, but is restless, keeps awake what it touches.
 // Reads: Counters, Manifolds.
@@ -40,13 +40,14 @@ void join(uint body_a, uint body_b)
     uint root_a = root_of(body_a);
     uint root_b = root_of(body_b);
     while (root_a != root_b) {
-        uint upper = max(root_a, root_b);
-        uint lower = min(root_a, root_b);
-        uint found = atomicCompSwap(islands[upper], upper, lower);
-        if (found == upper) return;
+        bool a_stays = order_of_root(root_a) < order_of_root(root_b);
+        uint root = a_stays ? root_a : root_b;
+        uint other = a_stays ? root_b : root_a;
+        uint found = atomicCompSwap(islands[other], other, root);
+        if (found == other) return;
         // Somebody else has hung it elsewhere meanwhile.
         root_a = root_of(found);
-        root_b = root_of(lower);
+        root_b = root_of(root);
     }
 }
 

@@ -19,7 +19,7 @@ static void join_islands_on_cpu(CpuState& state, const Launch&) {
         if (islands[b] == k_none && state.island_fill[b] == k_awake) state.island_fill[a] = k_awake;
         if (islands[a] == k_none || islands[b] == k_none) continue;
         if (tallness(manifold.demand) == 1) state.island_sizes[a] = k_tall;
-        join_islands_of(islands, a, b);
+        join_islands_of(islands, a, b, order_of_root);
     }
 }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of measure_islands.comp.glsl.
 #include "device/cpu/cpu_state.h"
+#include "resolution/island_roots.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
 
 static void measure_islands_on_cpu(CpuState& state, const Launch&) {
-    // A parent is lower than its child, and so has its root already.
     for (uint body = 0; body < state.parameters.body_count; ++body) {
         if (state.islands[body] == k_none) continue;
-        const uint island = state.islands[body] = state.islands[state.islands[body]];
+        const uint island = state.islands[body] = root_of(state.islands, body);
         state.substeps[island] = max(state.substeps[island], state.substeps[body]);
         if (state.island_fill[body] == k_awake) state.island_fill[island] = k_awake;
         const bool is_hub = state.body_colours[body_word(body, k_hub_word)] != 0;
