@@ -467,6 +467,28 @@ TEST_P(Graphs, last_where_points_come_and_go) {
     EXPECT_EQ(in_one_go.report().contacts, lasting.report().contacts);
 }
 
+/// While a pyramid settles, contacts far above its foot ask for more sub-steps than before, or for fewer: never for as
+/// many as those below.
+TEST_P(Graphs, last_where_others_ask_for_more_sub_steps) {
+    const bool is_hybrid = GetParam() == DeviceKind::Hybrid; // makes each graph anew
+    const scenes::Scene pyramid = scenes::make_scene("pyramid:base=30");
+    World lasting = make_world(pyramid.settings), made_anew = make_world(pyramid.settings);
+    for (World* world : {&lasting, &made_anew}) {
+        for (const scenes::NamedBody& body : pyramid.bodies)
+            world->add(body.definition);
+    }
+    int lasted = 0;
+    for (int i = 0; i < (is_hybrid ? 10 : 150); ++i) {
+        lasting.step();
+        made_anew.set_settings(pyramid.settings);
+        made_anew.step();
+        ASSERT_EQ(lasting.state_hash(), made_anew.state_hash()) << "step " << i;
+        ASSERT_EQ(lasting.report().substeps, made_anew.report().substeps) << "step " << i;
+        if (lasting.report().dispatches < made_anew.report().dispatches) ++lasted;
+    }
+    EXPECT_GT(lasted, is_hybrid ? -1 : 50) << "35 where any contact that asks for another number has the graph made";
+}
+
 TALUS_ON_EVERY_DEVICE(Graphs);
 
 } // namespace

@@ -336,8 +336,8 @@ ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contac
     for (uint i = 0; i < manifold.point_count; ++i)
         c = add_point(c, static_cast<int>(i), points[i], meeting, respond_to_normals(meeting));
     const float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
-    c.base_separation =
-        lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, state.parameters);
+    c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts),
+                                          c.traits, state.parameters);
     return c;
 }
 

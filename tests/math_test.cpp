@@ -361,6 +361,19 @@ TEST(Math, a_column_counts_storeys_and_without_gravity_its_load) {
     EXPECT_EQ(column_height(leaning, 21.0f, 1.0f, 1.0f, told, 11, parameters_for(settings)), k_unknown_height);
 }
 
+TEST(Math, what_asks_for_less_than_its_island_has_does_not_change_it) {
+    const auto demand = [](uint substeps, uint height) { return engine::make_demand(substeps, 0, height); };
+    EXPECT_TRUE(engine::asks_alike(demand(8, 1), demand(12, 30), 16, false));
+    EXPECT_TRUE(engine::asks_alike(demand(16, 1), demand(16, 30), 16, false));
+    EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(16, 1), 16, false))
+        << "it may now be the one that asks for most";
+    EXPECT_FALSE(engine::asks_alike(demand(16, 1), demand(8, 1), 16, false)) << "it may have been the only one";
+    EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(24, 1), 16, false));
+    EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(12, 1), 16, true)) << "each has its own";
+    EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(8, 30), 16, true)) << "a tall column has the same for all";
+    EXPECT_TRUE(engine::asks_alike(demand(8, 1), demand(8, 2), 16, true));
+}
+
 TEST(Math, fewer_substeps_are_the_next_number_in_use) {
     const Parameters p = parameters_for(Settings{});
     for (const auto& [substeps, fewer] : {std::pair{8u, 8u}, {12u, 8u}, {16u, 12u}, {100u, 96u}, {128u, 96u}})
@@ -493,7 +506,8 @@ RC_GTEST_PROP(Math, a_stamp_tells_the_number_that_it_was_made_from, (uint x, uin
     RC_ASSERT(engine::is_stamp(stamp, stamp));
     RC_ASSERT(engine::is_stamp(of_frozen, stamp));
     for (uint apart = 1; apart < 1000; ++apart)
-        for (const uint other : {number + apart, number - apart, number + apart * apart * 97, number - apart * apart * 97})
+        for (const uint other :
+             {number + apart, number - apart, number + apart * apart * 97, number - apart * apart * 97})
             RC_ASSERT_FALSE(engine::is_stamp(of_frozen, engine::stamp_of(x, y, z, other)));
 }
 

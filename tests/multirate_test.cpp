@@ -55,7 +55,8 @@ Contacts count_contacts(const EngineRun& run) {
     Contacts contacts;
     for (const engine::ContactConstraint& c : constraints) {
         ++(engine::substeps_of_contact(c.counts) == 2 ? contacts.slow : contacts.fast);
-        const bool is_faster = std::max(inertias[c.body_a].substeps, inertias[c.body_b].substeps) > engine::substeps_of_contact(c.counts);
+        const bool is_faster =
+            std::max(inertias[c.body_a].substeps, inertias[c.body_b].substeps) > engine::substeps_of_contact(c.counts);
         contacts.beside_faster += engine::is_multirate(c.traits) && is_faster ? 1 : 0;
     }
     return contacts;

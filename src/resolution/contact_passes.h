@@ -51,7 +51,8 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
 /// Instead of the pass that has found the hit, whose result was not put back.
 inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before, ContactConstraint& c,
                                    const ManifoldRows& rows, const PassTarget& target) {
-    const Substep substep = make_substep(substeps_of_contact(c.counts), is_against_static(c.traits), c.load_speed, state.parameters);
+    const Substep substep =
+        make_substep(substeps_of_contact(c.counts), is_against_static(c.traits), c.load_speed, state.parameters);
     const BodyDelta delta_a = shifted(state.deltas[c.body_a], state.warm_starts[c.body_a]);
     const BodyDelta delta_b = shifted(state.deltas[c.body_b], state.warm_starts[c.body_b]);
     const float h = substep_length(substeps_of_contact(c.counts), state.parameters);

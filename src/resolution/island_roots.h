@@ -15,8 +15,7 @@ template <typename Parents> uint root_of(Parents& parents, uint body) {
 }
 
 /// The root of both is the one whose order(root) is lower.
-template <typename Parents, typename Order>
-void join_islands_of(Parents& parents, uint a, uint b, const Order& order) {
+template <typename Parents, typename Order> void join_islands_of(Parents& parents, uint a, uint b, const Order& order) {
     const uint root_a = root_of(parents, a), root_b = root_of(parents, b);
     if (order(root_a) < order(root_b))
         parents[root_b] = root_a;

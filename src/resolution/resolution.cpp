@@ -18,10 +18,12 @@ static uint manifold_key_bits(const StepPlan& plan) {
 }
 
 /// Launches a kernel whose items are manifolds in the order of colours, for some pairs after the others: for those with
-/// indices from args[0] on, args[1] of them.
+/// indices from args[0] on, args[1] of them. args[2] is 1 where islands may be multirate.
 static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel& kernel) {
     for (uint first = 0; first < plan.pair_capacity; first += plan.near_pairs)
-        device.run({.kernel = kernel, .slot = k_dispatch_manifolds, .args = {first, plan.near_pairs}});
+        device.run({.kernel = kernel,
+                    .slot = k_dispatch_manifolds,
+                    .args = {first, plan.near_pairs, plan.may_be_multirate()}});
 }
 
 /// The islands of a large world, behind begin_islands, and which of them a work group solves.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: its impulses and its colour go back to where the next step, and
 // the caller, find them. The load on it decides how many sub-steps it asks for next.
-// args.x, args.y: the first pair that is wanted, and how many are.
+// args.x, args.y: the first pair that is wanted, and how many are. args.z: 1 where islands may be multirate.
 // Reads: Counters, Constraints, ManifoldKeys, ManifoldOrder, Properties, ToldLoads.
-// Writes: ManifoldPoints and Manifolds (impulses, colour, load, sub-steps); Counters, where sub-steps are others than before.
+// Writes: ManifoldPoints and Manifolds (impulses, colour, load, sub-steps); Counters, where an island may get other sub-steps.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -50,5 +50,6 @@ void main()
                                         unpack(properties[c.body_b]).inverse_mass,
                                         told_loads[told + k_told_mass], told_loads[told + k_told_height], parameters);
     manifolds[c.manifold] = pack(finished);
-    if (!asks_alike(finished.demand, manifold.demand)) counters[k_counter_graph_due] = 1u; // of the next step
+    if (!asks_alike(finished.demand, manifold.demand, substeps_of_contact(c.counts), args.z == 1u))
+        counters[k_counter_graph_due] = 1u; // of the next step
 }

@@ -26,8 +26,8 @@ namespace talus::engine {
 #include "broad_phase/curve.shared.glsl"
 #include "broad_phase/tree.shared.glsl"
 
-#include "resolution/contact_frame.shared.glsl"
 #include "resolution/contact_counts.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/stamp.shared.glsl"

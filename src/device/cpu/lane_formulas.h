@@ -34,8 +34,8 @@ using engine::Parameters; // the same for all lanes
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
 
-#include "resolution/contact_frame.shared.glsl"
 #include "resolution/contact_counts.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/softness.shared.glsl"
 
