@@ -90,6 +90,7 @@ void main()
         c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), meeting, response);
     }
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
-    c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, parameters);
+    c.base_separation =
+        lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, parameters);
     pack_ContactConstraint(constraints, index, c);
 }
