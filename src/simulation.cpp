@@ -92,7 +92,8 @@ bool changes_the_graph(const BodyChanges& changes) {
 /// Whether the two put the same manifolds into the same order, if the bodies and manifolds are the same.
 bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
     return plan.body_count == other.body_count && plan.one_island == other.one_island &&
-           plan.in_groups == other.in_groups && plan.singles == other.singles && plan.bounces == other.bounces;
+           plan.in_groups == other.in_groups && plan.singles == other.singles && plan.bounces == other.bounces &&
+           plan.may_be_multirate() == other.may_be_multirate();
 }
 
 /// What comes bit by bit goes on, and gets one part in `share` more; what comes all at once is what the caller has put
@@ -521,6 +522,25 @@ uint Simulation::likely_manifolds(uint pair_count) const {
     return std::min(with_headroom(likely, plan.manifold_capacity), plan.pair_capacity);
 }
 
+void Simulation::mend_velocities() {
+    Device& device = *placement.resolution;
+    const std::size_t count = device.size(BufferId::Velocities) / sizeof(BodyVelocity);
+    std::vector<BodyVelocity> velocities(count);
+    std::vector<BodyProperties> properties(count);
+    std::vector<BodyPose> poses(count);
+    device.read(std::array{
+        ReadRequest{BufferId::Velocities, count * sizeof(BodyVelocity), velocities.data()},
+        ReadRequest{BufferId::Properties, count * sizeof(BodyProperties), properties.data()},
+        ReadRequest{BufferId::Poses, count * sizeof(BodyPose), poses.data()},
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool frozen = (poses[i].flags & k_body_frozen) != 0;
+        velocities[i].inverse_mass = frozen ? 0.0f : properties[i].inverse_mass;
+        velocities[i].stamp = 0;
+    }
+    write_bytes(BufferId::Velocities, 0, std::as_bytes(std::span(velocities)));
+}
+
 void Simulation::redo(std::span<const uint> counters) {
     const uint reasons = counters[k_counter_did_not_fit];
     const uint pair_demand = counters[k_counter_pair_demand];
@@ -549,9 +569,11 @@ void Simulation::redo(std::span<const uint> counters) {
             throw Error(
                 "a body has so many others around it that this renderer, which ends long loops, does not search the "
                 "tree of the broad phase to the end; the device Cpu does");
-        if ((reasons & k_fit_groups) != 0)
+        if ((reasons & k_fit_groups) != 0) {
+            mend_velocities();
             throw Error("this GPU did not run the work groups of a launch side by side, though it did on trial, "
                         "so a step went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them wait for none");
+        }
         if ((reasons & k_fit_pairs) != 0) {
             make_room(&Simulation::grow_pairs, pair_demand, with_headroom(pair_demand, plan.pair_capacity));
             make_room(&Simulation::grow_manifolds, 0, likely_manifolds(pair_demand));
@@ -564,7 +586,8 @@ void Simulation::redo(std::span<const uint> counters) {
             make_room(&Simulation::reserve_hub_manifolds, hub_manifolds,
                       with_headroom(hub_manifolds, plan.hub_capacity));
     } catch (const Error&) {
-        // The world is left as it was before these steps, but for what the caller has changed.
+        // The world is left as it was before these steps, but for what the caller has changed, and for velocities that
+        // groups which gave up have changed.
         for (const Pending& entry : again) {
             apply_now(entry.population, entry.changes);
             owed_waking = std::max(owed_waking, entry.population.waking);

@@ -133,6 +133,8 @@ private:
     /// For what is wanted, or at least for the demand.
     void make_room(void (Simulation::*grow)(uint), uint demand, uint wanted);
     void redo(std::span<const uint> counters);
+    /// After a launch whose groups have given up: puts inverse masses back where stamps of it are left.
+    void mend_velocities();
     void follow_demand(std::span<const uint> counters);
     void reserve_hub_manifolds(uint count);
     void reserve_reports();

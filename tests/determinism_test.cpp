@@ -299,6 +299,12 @@ TEST_P(Paths, groups_that_wait_in_vain_are_an_error) {
     EXPECT_EQ(run.counter(engine::k_counter_did_not_fit), engine::k_fit_groups);
     EXPECT_THROW(run.step(), Error);
     EXPECT_EQ(run.counter(engine::k_counter_searched_slots), 0u) << "the next step searches for pairs";
+    const auto properties = run.read<engine::BodyProperties>(engine::BufferId::Properties, run.table.slot_count());
+    const auto velocities = run.read<engine::BodyVelocity>(engine::BufferId::Velocities, run.table.slot_count());
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
+        EXPECT_EQ(velocities[i].inverse_mass, properties[i].inverse_mass) << i;
+        EXPECT_EQ(velocities[i].stamp, 0u) << i;
+    }
 }
 
 TEST_P(Paths, islands_of_a_large_world_have_sub_steps_of_their_own) {

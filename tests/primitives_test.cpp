@@ -217,11 +217,22 @@ TEST_P(Primitives, sort_takes_as_many_passes_as_the_bits_need) {
     }
 }
 
+/// Up to 256 tiles groups add up the counts of all themselves, and beyond there is a scan.
 TEST_P(Primitives, sort_does_not_depend_on_the_capacity) {
-    for (const uint count : {0u, 1u, 1'000u, 5'000u}) {
+    for (const uint capacity : {40'000u, 256 * k_sort_tile, 256 * k_sort_tile + 1}) {
+        for (const uint count : {0u, 1u, 1'000u, 5'000u, 40'000u}) {
+            SCOPED_TRACE(testing::Message() << count << " keys in room for " << capacity);
+            const Words keys = random_words(count, 0, count);
+            ASSERT_TRUE(sort(*device, keys, capacity, 32) == expected_sort(keys));
+        }
+    }
+}
+
+TEST_P(Primitives, sort_of_many_tiles_equals_a_stable_sort) {
+    for (const uint count : {256 * k_sort_tile, 256 * k_sort_tile + 1, 300'000u}) {
         SCOPED_TRACE(count);
-        const Words keys = random_words(count, 0, count);
-        ASSERT_TRUE(sort(*device, keys, 40'000, 32) == expected_sort(keys));
+        const Words keys = random_words(count, 1u << 16, count);
+        ASSERT_TRUE(sort(*device, keys, count, 16) == expected_sort(keys));
     }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body in sorted order: searches the tree for the boxes after its own that overlap it. Those that no face
-// keeps apart from it are its partners. The way through the tree is the sorted order itself. A load waits for the one before,
-// so all children of a node are loaded at once, and those to be entered are kept as bits: four for each level. Neighbours in a
-// group take much the same way.
+// keeps apart from it are its partners, in sorted order. A load waits for the one before, so all children of a node are loaded
+// at once, and those to be entered are kept as bits: four for each level. Neighbours in a group take much the same way.
 // Run twice: args.x = 0 counts, and keeps the first k_kept_partners; 1 writes these at the scanned offset and goes on
 // from the last of them if there are more. args.y: the root's shift.
 // Reads: Counters, TreeNodes, TreeGrids, SortValues, OrientedBoxes.
@@ -59,11 +58,11 @@ uint take_kept(uint end)
 Aabb box; // its own
 uint end; // of the bodies that are there
 
-// Which of a node's children, at that shift, overlap the body's box, of those from one on: a bit for each. All four boxes are
+// Which of the children of a node, which have that shift, overlap the body's box, of those from one on: a bit for each. All four boxes are
 // loaded at once.
-uint overlapping_children(uint node, uint shift, uint from_child)
+uint overlapping_children(uint parent, uint shift, uint from_child)
 {
-    uint first = node * k_tree_children;
+    uint first = parent * k_tree_children;
     uint overlapping = 0u;
     for (uint child = 0u; child < k_tree_children; ++child) {
         uint child_place = (first + child) << shift;
@@ -110,7 +109,7 @@ void main()
     box = unpack(tree_nodes[tree_node(own, 0u, args.y)]);
     OrientedBox oriented = unpack(oriented_boxes[body]);
     uint place = from; // that the search has come to
-    uint top = from < end ? args.y : 0u;
+    uint top = from < end ? args.y : 0u; // with none behind it there is nothing to search
     uint base = 0u; // the shift of those that follow the place `from` in its node, and then in nodes further up
     if (top > 0u) add_pending(overlapping_children(from >> k_tree_bits, 0u, from % k_tree_children), 0u);
     while (base < top) {

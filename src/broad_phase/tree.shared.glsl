@@ -35,7 +35,8 @@ inline uint tree_node(uint place, uint shift, uint top)
     return (0x55555555u & ((1u << (top - shift)) - 1u)) + (place >> shift);
 }
 
-// The highest node that begins at a place other than the first: where a search goes on that has done with all before.
+// The highest node that begins at a place other than the first: where a search goes on that has done with all before. The kernel
+// knows it by the children that it has still to enter.
 inline uint tree_shift_from(uint place)
 {
     return uint(findLSB(place)) & ~(k_tree_bits - 1u);

@@ -34,7 +34,7 @@ void scan(Device& device, BufferId values, uint capacity, uint count_counter, ui
     device.run({.kernel = scan_tiles, .items = value_capacity, .args = args, .bindings = {{"Values", values}}});
 }
 
-/// Up to here each group that scatters keys is quicker to add up the counts of all tiles than a scan of them is.
+/// Up to so many tiles each group that scatters keys adds up the counts of all, which takes less time than a scan.
 constexpr uint k_most_added_tiles = 256;
 
 /// A pass for every digit, from the lowest up, each stable.

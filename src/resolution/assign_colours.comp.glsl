@@ -203,10 +203,11 @@ void propose(uint entry, uint rank_word)
 
 void decide(uint entry, uint rank_word, uint next_rank_word)
 {
+    bool is_new = entry != entry_in_hand;
     take_in_hand(entry);
     if (edge.pair == k_none) return;
     // Another edge of its hub may have taken a colour since it proposed: the last free one is asked for again.
-    if (edge.hub != k_none) find_colour();
+    if (edge.hub != k_none && !is_new) find_colour();
     bool wins = edge.colour != k_overflow_colour;
     for (uint end = 0u; end < 2u; ++end) {
         if (edge.obstructs[end]) {

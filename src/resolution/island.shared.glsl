@@ -21,8 +21,8 @@ inline bool is_multirate_island(uint word, uint least_size)
     return island_size(word) >= least_size && (word & k_tall) == 0u;
 }
 
-// Mixed, and of each body another: things next to each other often have slots in a row, and with the lowest slot as the root the
-// way to it would be as long as the row.
+// A permutation of the slots, without a pattern: things next to each other often have slots in a row, and with the lowest slot as
+// the root the way to it would be as long as the row.
 inline uint order_of_root(uint body) { return body * 0x9e3779b1u; }
 
 const uint k_awake = 0x80000000u; // in IslandFill, beside a count of bodies

@@ -166,7 +166,7 @@ const uint k_tall_height = 20u; // contacts
 inline uint tallness(uint demand) { return min(height_of(demand) / k_tall_height, 1u); }
 
 // Whether the same islands with the same sub-steps follow from both. An island has as many as the contact of it that asks for most,
-// `of_island`: what others ask for makes no difference, but where each may have its own (`may_be_multirate`).
+// `of_island`: what others ask for makes no difference. `may_be_multirate`: but in a world in which each may have its own.
 inline bool asks_alike(uint demand, uint other, uint of_island, bool may_be_multirate)
 {
     if (may_be_multirate) return substeps_of(demand) == substeps_of(other) && tallness(demand) == tallness(other);

@@ -50,12 +50,12 @@ BodyVelocity load_velocity(uint body)
     return without_stamps(cells, body);
 }
 
-// What contacts make of a body. Nobody waits for what they cannot push. `is_end`: no pass over the body follows.
-void store_in_order(uint body, uint its_traits, BodyVelocityCells before, BodyVelocity changed, uint earlier, bool is_end)
+// What contacts make of a body. Nobody waits for what they cannot push, or for the last contact of the last pass.
+void store_in_order(uint body, uint its_traits, BodyVelocityCells before, BodyVelocity changed, uint earlier, bool is_last)
 {
     if ((its_traits & k_trait_movable) == 0u) return;
     bool stays = is_frozen(before); // as it is, but those behind wait for it
-    if (is_end) {
+    if (is_last) {
         if (has_stamps(before) || !stays) store_velocity(body, stays ? frozen_velocity() : changed);
         return;
     }

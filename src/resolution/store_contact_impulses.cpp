@@ -26,8 +26,8 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch& launch)
         manifold = finish_manifold(manifold, c, standing, impulse, state.properties[c.body_a].inverse_mass,
                                    state.properties[c.body_b].inverse_mass, told[k_told_mass], told[k_told_height],
                                    state.parameters);
-        if (!asks_alike(manifold.demand, demand, substeps_of_contact(c.counts),
-                        launch.args[2] == 1)) // of the next step
+        // Of the next step.
+        if (!asks_alike(manifold.demand, demand, substeps_of_contact(c.counts), launch.args[2] == 1))
             std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
     });
 }

@@ -14,7 +14,7 @@ struct BodyPose {
 // 32 bytes. All of a body that the solver's inner loop reads but its inertia.
 struct BodyVelocity {
     vec3 linear;        // m/s, world
-    float inverse_mass; // 1/kg; 0 for static, kinematic and frozen bodies
+    float inverse_mass; // 1/kg; 0 for static, kinematic and frozen bodies; a stamp where `stamp` is one
     vec3 angular;       // rad/s, world
     uint stamp;         // 0 but within a persistent launch: see resolution/solve_in_order.glsl
 };
