@@ -193,7 +193,7 @@ void BodyTable::restore(const BodyTable& saved) {
     // Where the caller has changed something since the last step.
     const bool disturbed =
         !resting_slots.empty() || std::ranges::any_of(loads, [](const BodyLoad& load) { return load.disturbed != 0; });
-    waking = disturbed ? Waking::Disturbed : Waking::None;
+    waking = std::max(waking, disturbed ? Waking::Disturbed : Waking::None);
 }
 
 std::string BodyTable::complete() {

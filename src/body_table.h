@@ -70,6 +70,7 @@ public:
     /// What the bodies that were disturbed or removed since the last call ask for.
     Waking take_waking() { return std::exchange(waking, Waking::None); }
     void wake_all() { waking = Waking::All; }
+    bool wakes_all() const { return waking == Waking::All; }
     /// What has been marked, with the records as they are now; the table then counts as known to the device.
     BodyChanges take_changes();
     /// Whether the host has changed records of this kind that the device does not know yet.

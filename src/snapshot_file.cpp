@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 9;
+constexpr std::uint32_t k_version = 10;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
@@ -107,6 +107,12 @@ template <typename File, typename State> void visit(File& file, State& state) {
                         &report.overflow_manifolds, &report.hubs, &report.frozen_bodies, &report.sleeping_bodies})
         file.value(*count);
     file.value(state.counters);
+    std::uint32_t wakes_all = state.table.wakes_all() ? 1 : 0;
+    file.value(wakes_all);
+    if (wakes_all > 1) throw Error("it does not say who wakes");
+    if constexpr (!std::is_const_v<State>) {
+        if (wakes_all == 1) state.table.wake_all();
+    }
     BodyTable::visit_lists(state.table, [&](auto& list) { file.list(list); });
     file.list(state.manifolds);
     file.list(state.points);
