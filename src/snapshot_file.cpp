@@ -84,17 +84,23 @@ private:
     std::string_view rest;
 };
 
+/// As 32 bits, 0 or 1. `wrong`: what anything else in a file means.
+template <typename File> bool visit_flag(File& file, bool flag, const char* wrong) {
+    std::uint32_t word = flag ? 1 : 0;
+    file.value(word);
+    if (word > 1) throw Error(wrong);
+    return word == 1;
+}
+
 /// All numbers as they lie in memory, but for the last member, which is not as large as a word.
 template <typename File, typename S> void visit_settings(File& file, S& settings) {
     std::array<std::byte, offsetof(Settings, sleeping)> numbers;
     std::memcpy(numbers.data(), &settings, sizeof numbers);
-    std::uint32_t sleeping = settings.sleeping ? 1 : 0;
     file.value(numbers);
-    file.value(sleeping);
-    if (sleeping > 1) throw Error("its settings are wrong");
+    const bool sleeping = visit_flag(file, settings.sleeping, "its settings are wrong");
     if constexpr (!std::is_const_v<S>) {
         std::memcpy(static_cast<void*>(&settings), numbers.data(), sizeof numbers);
-        settings.sleeping = sleeping == 1;
+        settings.sleeping = sleeping;
     }
 }
 
@@ -107,11 +113,9 @@ template <typename File, typename State> void visit(File& file, State& state) {
                         &report.overflow_manifolds, &report.hubs, &report.frozen_bodies, &report.sleeping_bodies})
         file.value(*count);
     file.value(state.counters);
-    std::uint32_t wakes_all = state.table.wakes_all() ? 1 : 0;
-    file.value(wakes_all);
-    if (wakes_all > 1) throw Error("it does not say who wakes");
+    const bool wakes_all = visit_flag(file, state.table.wakes_all(), "it does not say who wakes");
     if constexpr (!std::is_const_v<State>) {
-        if (wakes_all == 1) state.table.wake_all();
+        if (wakes_all) state.table.wake_all();
     }
     BodyTable::visit_lists(state.table, [&](auto& list) { file.list(list); });
     file.list(state.manifolds);

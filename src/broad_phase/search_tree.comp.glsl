@@ -29,6 +29,8 @@ uint own; // place of this invocation's body
 uint body;
 uint offset = 0u; // of its pairs
 uint found = 0u;
+Aabb box; // its own
+uint end; // of the bodies that are there
 
 void take(uint partner)
 {
@@ -42,8 +44,8 @@ void take(uint partner)
     found += 1u;
 }
 
-// Takes the partners that the counting kept, and returns the place from which on the search has to go.
-uint take_kept(uint end)
+// Takes the partners that the counting kept, and returns the last one where the search has to go on behind it, or else the end.
+uint take_kept()
 {
     uint next = own + 1u < parameters.body_count ? pair_counts[own + 1u] : counters[k_counter_found_pairs];
     uint count = next - offset;
@@ -52,14 +54,11 @@ uint take_kept(uint end)
         partner = partners[found * parameters.body_count + own];
         take(partner);
     }
-    return count > k_kept_partners ? partner + 1u : end;
+    return count > k_kept_partners ? partner : end;
 }
 
-Aabb box; // its own
-uint end; // of the bodies that are there
-
-// Which of the children of a node, which have that shift, overlap the body's box, of those from one on: a bit for each. All four boxes are
-// loaded at once.
+// Which of the children of a node, which have that shift, overlap the body's box, of those from one on: a bit for each. All four
+// boxes are loaded at once.
 uint overlapping_children(uint parent, uint shift, uint from_child)
 {
     uint first = parent * k_tree_children;
@@ -99,24 +98,22 @@ void main()
     own = item_index();
     if (own >= counters[k_counter_search_count]) return;
     end = tree_grids[0].end;
-    uint from = own + 1u;
+    uint last = own; // the place behind which it searches
     body = sort_values[own];
     if (args.x == 1u) {
         offset = pair_counts[own];
-        from = take_kept(end);
-        if (from >= end) return;
+        last = take_kept();
+        if (last == end) return;
     }
     box = unpack(tree_nodes[tree_node(own, 0u, args.y)]);
     OrientedBox oriented = unpack(oriented_boxes[body]);
-    uint place = from; // that the search has come to
-    uint top = from < end ? args.y : 0u; // with none behind it there is nothing to search
-    uint base = 0u; // the shift of those that follow the place `from` in its node, and then in nodes further up
-    if (top > 0u) add_pending(overlapping_children(from >> k_tree_bits, 0u, from % k_tree_children), 0u);
-    while (base < top) {
+    uint place = last; // that the search has come to
+    uint level = 0u;   // the shift of the next nodes to look at: those that follow the place `last` in the node around them
+    while (level < args.y || pending != uvec2(0u)) {
         if (pending == uvec2(0u)) {
-            base += k_tree_bits;
-            uint around = from >> base;
-            if (base < top) add_pending(overlapping_children(around / k_tree_children, base, around % k_tree_children + 1u), base);
+            uint around = last >> level;
+            add_pending(overlapping_children(around / k_tree_children, level, around % k_tree_children + 1u), level);
+            level += k_tree_bits;
             continue;
         }
         uint next = take_lowest_pending();
@@ -128,6 +125,6 @@ void main()
         else if (!faces_part(oriented, unpack(oriented_boxes[sort_values[place]])))
             take(place);
     }
-    if (base < top) atomicOr(counters[k_counter_did_not_fit], k_fit_search);
+    if (level < args.y || pending != uvec2(0u)) atomicOr(counters[k_counter_did_not_fit], k_fit_search);
     if (args.x == 0u) pair_counts[own] = found;
 }

@@ -86,12 +86,13 @@ void find_colour()
         edge.obstructs[end] = edge.movable[end] && !(edge.is_shared && body_at(end) == edge.hub);
 }
 
-void take_in_hand(uint entry)
+// Whether it was not in hand before.
+bool take_in_hand(uint entry)
 {
-    if (entry == entry_in_hand) return;
+    if (entry == entry_in_hand) return false;
     entry_in_hand = entry;
     edge.pair = uncoloured[entry];
-    if (edge.pair == k_none) return;
+    if (edge.pair == k_none) return true;
     edge.manifold = manifolds[edge.pair];
     for (uint end = 0u; end < 2u; ++end)
         edge.movable[end] = is_movable(shapes[body_at(end)]);
@@ -99,7 +100,7 @@ void take_in_hand(uint entry)
     edge.hub = hub_of(edge.manifold);
     edge.part = 0u;
     if (edge.hub != k_none) edge.part = part_of_load(edge.manifold, uintBitsToFloat(manifold_keys[edge.pair]), edge.hub);
-    find_colour();
+    return true;
 }
 
 void give_colour(uint colour)
@@ -186,10 +187,9 @@ void count_unshared()
 
 void propose(uint entry, uint rank_word)
 {
-    bool is_new = entry != entry_in_hand;
     take_in_hand(entry);
     if (edge.pair == k_none) return;
-    if (!is_new) find_colour();
+    find_colour();
     if (edge.colour == k_overflow_colour) { // colours are never given back
         atomicAdd(counters[k_counter_overflow_count], 1u);
         count_unshared();
@@ -203,11 +203,10 @@ void propose(uint entry, uint rank_word)
 
 void decide(uint entry, uint rank_word, uint next_rank_word)
 {
-    bool is_new = entry != entry_in_hand;
-    take_in_hand(entry);
+    bool is_new = take_in_hand(entry);
     if (edge.pair == k_none) return;
     // Another edge of its hub may have taken a colour since it proposed: the last free one is asked for again.
-    if (edge.hub != k_none && !is_new) find_colour();
+    if (is_new || edge.hub != k_none) find_colour();
     bool wins = edge.colour != k_overflow_colour;
     for (uint end = 0u; end < 2u; ++end) {
         if (edge.obstructs[end]) {

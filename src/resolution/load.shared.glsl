@@ -165,8 +165,8 @@ const uint k_tall_height = 20u; // contacts
 // 1 in a tall column, else 0.
 inline uint tallness(uint demand) { return min(height_of(demand) / k_tall_height, 1u); }
 
-// Whether the same islands with the same sub-steps follow from both. An island has as many as the contact of it that asks for most,
-// `of_island`: what others ask for makes no difference. `may_be_multirate`: but in a world in which each may have its own.
+// Whether the same islands with the same sub-steps follow from both. An island has as many as the contact of it that asks for
+// most, `of_island`, and what others ask for makes no difference; but it does where some island of the world may be multirate.
 inline bool asks_alike(uint demand, uint other, uint of_island, bool may_be_multirate)
 {
     if (may_be_multirate) return substeps_of(demand) == substeps_of(other) && tallness(demand) == tallness(other);
