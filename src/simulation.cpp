@@ -255,8 +255,13 @@ void Simulation::write_behind_steps(BufferId buffer, std::size_t offset, std::sp
 void Simulation::set_settings(const Settings& wanted) {
     if (wanted.sleeping) grow_everywhere(BufferId::Rests, body_capacity);
     if (wanted.broad_phase != settings.broad_phase) search_anew();
-    graph_lasts.begin_anew();
+    begin_graph_anew();
     settings = wanted;
+}
+
+void Simulation::begin_graph_anew() {
+    other_graph = true;
+    graph_lasts.begin_anew();
 }
 
 void Simulation::search_anew() {
@@ -264,7 +269,7 @@ void Simulation::search_anew() {
     constexpr std::array<uint, 2> none{};
     write_behind_steps(BufferId::Counters, k_counter_searched_slots * sizeof(uint), std::as_bytes(std::span(none)));
     pairs_last.begin_anew();
-    graph_lasts.begin_anew();
+    begin_graph_anew();
 }
 
 void Simulation::step(const Population& population, bool with_poses, BodyChanges changes) {
@@ -285,7 +290,7 @@ void Simulation::change_bodies(const Population& population, const BodyChanges& 
 
 void Simulation::apply_now(const Population& population, const BodyChanges& changes) {
     write_body_count(population.slots);
-    graph_lasts.begin_anew();
+    begin_graph_anew();
     for (Device* device : {gpu.get(), cpu.get()}) {
         if (device == nullptr) continue;
         apply_changes(*device, changes);
@@ -387,8 +392,9 @@ void Simulation::enqueue(Pending entry) {
     StepPlan now = plan_step(entry.population);
     const bool other_bodies = entry.population.slots != enqueued_slots;
     now.searches = !pairs_last.holds() || moves_bodies(entry.changes) || other_bodies;
-    now.makes_graph = !graph_lasts.holds() || now.searches || changes_the_graph(entry.changes) || settings.sleeping ||
+    now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || settings.sleeping ||
                       placement.hybrid() || !has_the_graph_of(now, newest_plan);
+    now.makes_graph = now.other_graph || !graph_lasts.holds();
     newest_plan = now;
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);

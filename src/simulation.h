@@ -101,6 +101,9 @@ public:
     std::vector<StepReports> take_reports() { return std::exchange(reports, {}); }
 
 private:
+    /// The next step's graph is not that of the step before, for what has happened between them.
+    void begin_graph_anew();
+
     struct Pending {
         Ticket ticket;
         Population population;
@@ -155,6 +158,7 @@ private:
     std::uint32_t growths = 0;
     Trust pairs_last;        ///< that a step need not search for pairs
     Trust graph_lasts;       ///< that a step need not make its constraint graph
+    bool other_graph = true; ///< see begin_graph_anew()
     StepPlan newest_plan;    ///< of the step that was enqueued last
     uint window_steps = 0;   ///< since the demand was last looked at
     uint window_colours = 0; ///< most colours since

@@ -29,6 +29,7 @@ struct StepPlan {
     uint body_count = 0;         ///< body slots in use
     bool searches = true;        ///< the search for pairs gets launches, which it may turn out not to need
     bool makes_graph = true;     ///< the constraint graph gets launches; without them it has to be the last step's
+    bool other_graph = false;    ///< the host knows that it is not the last step's; has makes_graph too
     uint pair_capacity = 0;      ///< room in the buffers that have a record a pair
     uint manifold_capacity = 0;  ///< room for the manifolds that are solved
     uint near_pairs = 1u << 20;  ///< whose records are quick to reach in any order, as they lie close together

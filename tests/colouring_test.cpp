@@ -383,7 +383,7 @@ TEST_P(Graphs, that_last_give_the_bits_of_new_ones) {
         lasting.step();
         made_anew.step();
         in_one_go.step();
-        constexpr int steps = 210; // until all are at rest
+        constexpr int steps = 250; // until all have been at rest for a while
         for (int i = 0; i < steps; ++i) {
             if (i == 60) {
                 for (World* world : {&lasting, &made_anew})

@@ -240,7 +240,7 @@ TEST_P(Primitives, sort_takes_its_groups_from_a_dispatch) {
     for (const uint count : {0u, 1u, 1'024u, 1'025u, 10'000u}) {
         SCOPED_TRACE(count);
         const Words keys = random_words(count, 0, count);
-        ASSERT_TRUE(sort(*device, keys, 40'000, 32, k_dispatch_pair_tiles) == expected_sort(keys));
+        ASSERT_TRUE(sort(*device, keys, 40'000, 32, k_dispatch_graph_tiles) == expected_sort(keys));
     }
 }
 

@@ -84,7 +84,9 @@ void broad_phase(Device& device, const StepPlan& plan) {
         search(device, plan);
     else
         device.run({.kernel = find_strays, .items = plan.body_count});
-    device.run({.kernel = plan_pairs, .items = 1, .args = {plan.searches, plan.makes_graph}});
+    device.run({.kernel = plan_pairs,
+                .items = 1,
+                .args = {plan.searches, plan.makes_graph, plan.other_graph, plan.watch != ContactWatch::None}});
 }
 
 } // namespace talus::engine

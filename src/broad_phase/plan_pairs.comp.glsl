@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation: how many pairs there are, whether they fit, and the launches that treat them.
-// args.x: 1 where the search had launches. args.y: 1 where the constraint graph has them; otherwise it is the last step's,
-// and so are its counts, but for that of the contact points: see collide_pairs.
+// args.x: 1 where the search had launches. args.y: 1 where the constraint graph has them. args.z: 1 where the host knows that it
+// is not the last step's. args.w: 1 where the last step's pairs are looked up in any case.
 // Reads: Counters.
 // Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the scan of the pair counts.
@@ -37,24 +37,6 @@ void take_pairs(bool due)
     }
 }
 
-void begin_graph()
-{
-    counters[k_counter_manifold_count] = 0u;
-    counters[k_counter_contact_count] = 0u;
-    counters[k_counter_colour_demand] = 0u;
-    counters[k_counter_overflow_count] = 0u;
-    counters[k_counter_uncoloured] = 0u;
-    counters[k_counter_hub_count] = 0u;
-    counters[k_counter_hub_manifolds] = 0u;
-    counters[k_counter_launched_colours] = 0u;
-    counters[k_counter_launched_substeps] = 0u;
-    counters[k_counter_launched_overflow] = 0u;
-    counters[k_counter_multirate_islands] = 0u;
-    counters[k_counter_sleeping_manifolds] = 0u;
-    counters[k_counter_singles] = 0u;
-    counters[k_counter_substep_demand] = parameters.least_substeps;
-}
-
 void main()
 {
     bool due = counters[k_counter_search_count] != 0u;
@@ -67,13 +49,17 @@ void main()
     uint demand = counters[k_counter_pair_demand];
     uint pair_count = counters[k_counter_did_not_fit] == 0u ? demand : 0u;
     counters[k_counter_pair_count] = pair_count;
-    if (args.x == 1u) counters[k_counter_graph_due] = 1u; // whose pairs may have other numbers
-    if (args.y == 1u) begin_graph();
+    bool other_pairs = counters[k_counter_pairs_changed] != 0u;
+    bool may_have_other_shares = args.y == 1u && counters[k_counter_hub_count] > 0u; // else weigh_hubs knows
+    if (other_pairs || args.z == 1u)
+        counters[k_counter_graph_due] = 1u;
+    else if (may_have_other_shares && counters[k_counter_graph_due] == 0u)
+        counters[k_counter_graph_due] = k_due_for_hubs;
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;
     counters[k_counter_launched_bodies] = 0u;
     arrivals[0] = 0u; // of the first launch whose groups wait for each other
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
-    dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);
-    dispatches[k_dispatch_old_pairs] = groups_for(counters[k_counter_old_pair_count], k_group_size);
+    uint looked_up = other_pairs || args.w == 1u ? counters[k_counter_old_pair_count] : 0u;
+    dispatches[k_dispatch_old_pairs] = groups_for(looked_up, k_group_size);
 }

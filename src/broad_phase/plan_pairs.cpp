@@ -28,16 +28,6 @@ static void take_pairs(CpuState& state, bool due, bool had_launches) {
     }
 }
 
-static void begin_graph(CpuState& state) {
-    for (const uint counter :
-         {k_counter_manifold_count, k_counter_contact_count, k_counter_colour_demand, k_counter_overflow_count,
-          k_counter_uncoloured, k_counter_hub_count, k_counter_hub_manifolds, k_counter_launched_colours,
-          k_counter_launched_substeps, k_counter_launched_overflow, k_counter_sleeping_manifolds, k_counter_singles,
-          k_counter_multirate_islands})
-        state.counters[counter] = 0;
-    state.counters[k_counter_substep_demand] = state.parameters.least_substeps;
-}
-
 static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& counters = state.counters;
     const bool due = counters[k_counter_search_count] != 0;
@@ -50,15 +40,19 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const uint demand = counters[k_counter_pair_demand];
     const uint pair_count = counters[k_counter_did_not_fit] == 0 ? demand : 0;
     counters[k_counter_pair_count] = pair_count;
-    if (launch.args[0] == 1) counters[k_counter_graph_due] = 1; // whose pairs may have other numbers
-    if (launch.args[1] == 1) begin_graph(state);
+    const bool other_pairs = counters[k_counter_pairs_changed] != 0;
+    const bool may_have_other_shares = launch.args[1] == 1 && counters[k_counter_hub_count] > 0;
+    if (other_pairs || launch.args[2] == 1)
+        counters[k_counter_graph_due] = 1;
+    else if (may_have_other_shares && counters[k_counter_graph_due] == 0)
+        counters[k_counter_graph_due] = k_due_for_hubs;
     counters[k_counter_report_count] = 0;
     counters[k_counter_sleeping_bodies] = 0;
     counters[k_counter_launched_bodies] = 0;
     state.arrivals[0] = 0;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
-    state.dispatches[k_dispatch_pair_tiles] = groups_for(pair_count, k_sort_tile);
-    state.dispatches[k_dispatch_old_pairs] = groups_for(counters[k_counter_old_pair_count], k_group_size);
+    const uint looked_up = other_pairs || launch.args[3] == 1 ? counters[k_counter_old_pair_count] : 0;
+    state.dispatches[k_dispatch_old_pairs] = groups_for(looked_up, k_group_size);
 }
 
 const Kernel plan_pairs{"broad_phase/plan_pairs", plan_pairs_on_cpu, 1};

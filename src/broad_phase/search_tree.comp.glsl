@@ -107,15 +107,12 @@ void main()
     }
     box = unpack(tree_nodes[tree_node(own, 0u, args.y)]);
     OrientedBox oriented = unpack(oriented_boxes[body]);
+    for (uint shift = 0u; shift < args.y; shift += k_tree_bits) { // what follows the place `last` in the nodes around it
+        uint around = last >> shift;
+        add_pending(overlapping_children(around / k_tree_children, shift, around % k_tree_children + 1u), shift);
+    }
     uint place = last; // that the search has come to
-    uint level = 0u;   // the shift of the next nodes to look at: those that follow the place `last` in the node around them
-    while (level < args.y || pending != uvec2(0u)) {
-        if (pending == uvec2(0u)) {
-            uint around = last >> level;
-            add_pending(overlapping_children(around / k_tree_children, level, around % k_tree_children + 1u), level);
-            level += k_tree_bits;
-            continue;
-        }
+    while (pending != uvec2(0u)) {
         uint next = take_lowest_pending();
         uint shift = next / k_tree_children * k_tree_bits;
         uint node = (place >> shift) / k_tree_children * k_tree_children + next % k_tree_children;
@@ -125,6 +122,6 @@ void main()
         else if (!faces_part(oriented, unpack(oriented_boxes[sort_values[place]])))
             take(place);
     }
-    if (level < args.y || pending != uvec2(0u)) atomicOr(counters[k_counter_did_not_fit], k_fit_search);
+    if (pending != uvec2(0u)) atomicOr(counters[k_counter_did_not_fit], k_fit_search);
     if (args.x == 0u) pair_counts[own] = found;
 }

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3). Of a pair in
 // which a body sleeps and nothing moves it is the last step's.
-// args.x: 1 where the pairs are those of the last step, one by one. args.y: 1 where the constraint graph is made, which counts
-// the contact points.
 // Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds,
 // OldManifoldPoints.
 // Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints; Counters, where two
 // bodies touch that did not in the last step, or touch no longer, by which the constraint graph is another one, and where
-// they touch at fewer or more points in a graph that lasts.
+// they touch at fewer or more points.
 // Needs: barriers after plan_pairs and fill_pair_table.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -101,17 +99,17 @@ bool is_near(Pair pair)
 
 uint old_manifold_of(uint pair_index, Pair pair)
 {
-    if (args.x == 0u) return find_old_manifold(pair.body_a, pair.body_b);
+    if (counters[k_counter_pairs_changed] != 0u) return find_old_manifold(pair.body_a, pair.body_b);
     return unpack(old_manifolds[pair_index]).point_count > 0u ? pair_index : k_none;
 }
 
 void compare_with_last(uint pair_index, Manifold manifold)
 {
-    if (args.x == 0u) return;
+    if (counters[k_counter_pairs_changed] != 0u) return;
     Manifold old = unpack(old_manifolds[pair_index]);
     if (is_active(old) != is_active(manifold))
         counters[k_counter_graph_due] = 1u;
-    else if (args.y == 0u && is_active(manifold) && manifold.point_count != old.point_count)
+    else if (is_active(manifold) && manifold.point_count != old.point_count)
         atomicAdd(counters[k_counter_contact_count], manifold.point_count - old.point_count);
 }
 

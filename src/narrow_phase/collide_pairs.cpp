@@ -68,11 +68,11 @@ uint old_manifold_of(const CpuState& state, uint pair_index, bool same_pairs) {
     return state.old_manifolds[pair_index].point_count > 0 ? pair_index : k_none;
 }
 
-void compare_with_last(CpuState& state, uint pair_index, bool makes_graph) {
+void compare_with_last(CpuState& state, uint pair_index) {
     const Manifold &old = state.old_manifolds[pair_index], &manifold = state.manifolds[pair_index];
     if (is_active(old) != is_active(manifold))
         std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
-    else if (!makes_graph && is_active(manifold) && manifold.point_count != old.point_count)
+    else if (is_active(manifold) && manifold.point_count != old.point_count)
         std::atomic_ref(state.counters[k_counter_contact_count])
             .fetch_add(manifold.point_count - old.point_count, std::memory_order_relaxed);
 }
@@ -155,9 +155,9 @@ void query_axes_of(const CpuState& state, std::span<PairInHand> in_hand) {
     }
 }
 
-void collide_pairs_on_cpu(CpuState& state, const Launch& launch) {
+void collide_pairs_on_cpu(CpuState& state, const Launch&) {
     const uint pair_count = state.counters[k_counter_pair_count];
-    const bool same_pairs = launch.args[0] == 1, makes_graph = launch.args[1] == 1;
+    const bool same_pairs = state.counters[k_counter_pairs_changed] == 0;
     const auto collide_part = [&](uint part) {
         const uint first = part * k_part, end = std::min(first + k_part, pair_count);
         std::array<PairInHand, k_part> memory;
@@ -166,7 +166,7 @@ void collide_pairs_on_cpu(CpuState& state, const Launch& launch) {
         for (const PairInHand& each : in_hand)
             collide_pair(state, each);
         for (uint index = first; same_pairs && index < end; ++index)
-            compare_with_last(state, index, makes_graph);
+            compare_with_last(state, index);
     };
     state.parallel((pair_count + k_part - 1) / k_part, collide_part, 2);
 }

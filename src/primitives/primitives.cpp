@@ -37,11 +37,24 @@ void scan(Device& device, BufferId values, uint capacity, uint count_counter, ui
 /// Up to so many tiles each group that scatters keys adds up the counts of all, which takes less time than a scan.
 constexpr uint k_most_added_tiles = 256;
 
-/// A pass for every digit, from the lowest up, each stable.
-void sort_digit_by_digit(Device& device, const Sort& sort) {
-    // A swap hands the scratch buffers to the caller, so they must be as large as what they are swapped for.
+bool takes_one_group(const Sort& sort) {
+    return sort.capacity <= k_sort_in_group_keys;
+}
+
+// A swap hands the scratch buffers to the caller, so they must be as large as what they are swapped for.
+void reserve_scratch(Device& device, const Sort& sort) {
     reserve_words(device, sort.keys_swap, device.size(sort.keys) / sizeof(uint));
     reserve_words(device, sort.values_swap, device.size(sort.values) / sizeof(uint));
+}
+
+void swap_buffers(Device& device, const Sort& sort) {
+    device.swap(sort.keys, sort.keys_swap);
+    device.swap(sort.values, sort.values_swap);
+}
+
+/// A pass for every digit, from the lowest up, each stable.
+void sort_digit_by_digit(Device& device, const Sort& sort) {
+    reserve_scratch(device, sort);
     reserve_words(device, BufferId::DigitCounts, scan_count(sort.capacity, k_sort_tile, k_digits));
 
     const uint adds_up = divide_up(sort.capacity, k_sort_tile) <= k_most_added_tiles ? 1 : 0;
@@ -62,8 +75,7 @@ void sort_digit_by_digit(Device& device, const Sort& sort) {
                                  {"Values", sort.values},
                                  {"SortedKeys", sort.keys_swap},
                                  {"SortedValues", sort.values_swap}}});
-        device.swap(sort.keys, sort.keys_swap);
-        device.swap(sort.values, sort.values_swap);
+        swap_buffers(device, sort);
     }
 }
 
@@ -73,8 +85,15 @@ void exclusive_scan(Device& device, BufferId values, uint capacity, uint count_c
     scan(device, values, capacity, count_counter, total_counter, 1, 1);
 }
 
+void begin_sort(Device& device, const Sort& sort) {
+    const uint passes = takes_one_group(sort) ? 0 : divide_up(sort.bits, k_digit_bits);
+    if (passes % 2 == 0) return;
+    reserve_scratch(device, sort);
+    swap_buffers(device, sort);
+}
+
 void sort_by_key(Device& device, const Sort& sort) {
-    if (sort.capacity > k_sort_in_group_keys) return sort_digit_by_digit(device, sort);
+    if (!takes_one_group(sort)) return sort_digit_by_digit(device, sort);
     device.run({.kernel = sort_in_group,
                 .items = 1,
                 .args = {sort.count_counter},

@@ -29,6 +29,10 @@ struct Sort {
     uint slot = k_none;
 };
 
+/// Before keys are written that may turn out to be none: the sort will leave its result where the last one's is, and
+/// with no keys at all the last one's stays. Writing them leaves it alone unless the sort is certain.
+void begin_sort(Device&, const Sort&);
+
 /// Sorts by key, lowest first; equal keys keep their order. A capacity of up to k_sort_in_group_keys (2,048) takes a
 /// single dispatch. A larger one takes a pass for every 8 bits; where the number of passes is odd, `keys` and `values`
 /// change places with the two scratch buffers (Device::swap).

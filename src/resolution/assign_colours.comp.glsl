@@ -258,7 +258,7 @@ void main()
         count_resident_groups();
         return;
     }
-    uint entry_count = counters[k_counter_uncoloured];
+    uint entry_count = counters[k_counter_graph_bodies] > 0u ? counters[k_counter_uncoloured] : 0u;
     group_count = min((entry_count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, gl_NumWorkGroups.x);
     if (gl_WorkGroupID.x >= group_count) return;
     uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationID.x;

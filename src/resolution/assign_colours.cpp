@@ -12,6 +12,7 @@
 namespace talus::engine {
 
 static void assign_colours_on_cpu(CpuState& state, const Launch&) {
+    if (state.counters[k_counter_graph_bodies] == 0) return;
     struct Edge {
         uint rank;
         uint pair;

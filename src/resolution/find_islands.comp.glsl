@@ -66,7 +66,8 @@ uint root_of(uint body)
 void main()
 {
     uint me = gl_LocalInvocationID.x;
-    uint pair_count = counters[k_counter_pair_count];
+    if (counters[k_counter_graph_bodies] == 0u) return;
+    uint pair_count = counters[k_counter_graph_pairs];
     if (me == 0u) first_mover = k_none;
     barrier();
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {

@@ -12,8 +12,8 @@
 namespace talus::engine {
 
 static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
-    const uint body_count = state.parameters.body_count;
-    const uint pair_count = state.counters[k_counter_pair_count];
+    const uint body_count = state.counters[k_counter_graph_bodies];
+    const uint pair_count = state.counters[k_counter_graph_pairs];
     std::vector<uint> roots(body_count);
     std::iota(roots.begin(), roots.end(), 0u);
 

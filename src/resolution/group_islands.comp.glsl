@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its island's group and sub-steps, in a multirate island its own, and its place among the
-// bodies in the order of islands. An island that sleeps has neither, and no sub-steps.
+// bodies in the order of islands. An island that sleeps has neither, and no sub-steps. What moves as its caller says is no part of
+// one, and moves by launches.
 // args.x: 1 where work groups solve islands. args.y: 1 where also those do that solve a single one. args.z: the size from
 // which on an island is multirate; k_none: none is.
-// Reads: Islands, IslandSizes, IslandStarts (scanned).
+// Reads: Shapes, Islands, IslandSizes, IslandStarts (scanned).
 // Writes: Substeps, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
 // first; nothing that is made from it does.
 // Needs: a barrier after the scan of IslandStarts.
 // Overflow: none.
 #include "state/math.shared.glsl"
+#include "broad_phase/aabb.shared.glsl"
 #include "resolution/multirate.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
 
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer IslandSizes { uint island_sizes[]; };
 layout(std430) readonly buffer IslandStarts { uint island_starts[]; };
@@ -27,11 +30,14 @@ layout(std430) buffer Counters { uint counters[]; };
 void main()
 {
     uint body = item_index();
-    if (body >= parameters.body_count) return;
+    if (body >= counters[k_counter_graph_bodies]) return;
     uint island = islands[body];
     island_groups[body] = k_launched;
     island_places[body] = k_none;
-    if (island == k_none) return;
+    if (island == k_none) {
+        if (is_mover(unpack(shapes[body]))) atomicMax(counters[k_counter_launched_substeps], parameters.least_substeps);
+        return;
+    }
     if ((island_fill[island] & k_awake) == 0u) {
         substeps[body] = 0u;
         return;

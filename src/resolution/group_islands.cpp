@@ -9,11 +9,14 @@ namespace talus::engine {
 static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
     const Parameters& p = state.parameters;
     uint& launched_substeps = state.counters[k_counter_launched_substeps];
-    for (uint body = 0; body < state.parameters.body_count; ++body) {
+    for (uint body = 0; body < state.counters[k_counter_graph_bodies]; ++body) {
         const uint island = state.islands[body];
         state.island_groups[body] = k_launched;
         state.island_places[body] = k_none;
-        if (island == k_none) continue;
+        if (island == k_none) {
+            if (is_mover(state.shapes[body])) launched_substeps = max(launched_substeps, p.least_substeps);
+            continue;
+        }
         if ((state.island_fill[island] & k_awake) == 0) {
             state.substeps[body] = 0;
             continue;

@@ -5,7 +5,7 @@
 // Reads: Counters, Manifolds.
 // Writes: Islands, Substeps, IslandFill; IslandSizes, that a column is tall.
 // Which body hangs below which depends on who comes first; the roots do not.
-// Needs: a barrier after begin_islands.
+// Needs: a barrier after begin_graph.
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "resolution/colouring.shared.glsl"
@@ -54,7 +54,7 @@ void join(uint body_a, uint body_b)
 void main()
 {
     uint pair = item_index();
-    if (pair >= counters[k_counter_pair_count]) return;
+    if (pair >= counters[k_counter_graph_pairs]) return;
     Manifold manifold = unpack(manifolds[pair]);
     if (!is_active(manifold)) return;
     bool pushes_a = islands[manifold.body_a] != k_none;

@@ -9,7 +9,7 @@ namespace talus::engine {
 
 static void join_islands_on_cpu(CpuState& state, const Launch&) {
     const Array<uint>& islands = state.islands;
-    for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
+    for (uint pair = 0; pair < state.counters[k_counter_graph_pairs]; ++pair) {
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
         if (!is_active(manifold)) continue;

@@ -6,7 +6,7 @@
 // Reads: Manifolds, ManifoldPoints, Shapes.
 // Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
 // Counters. The order of the list depends on who comes first; nothing that is made from it does.
-// Needs: barriers after clear_colours and collide_pairs.
+// Needs: a barrier after begin_graph.
 // Overflow: none; the list has room for every pair.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
@@ -82,7 +82,7 @@ void main()
     }
     barrier();
     uint pair = item_index();
-    if (pair < counters[k_counter_pair_count]) keep_colour(pair);
+    if (pair < counters[k_counter_graph_pairs]) keep_colour(pair);
     barrier();
     if (!is_first || manifold_count == 0u) return;
     atomicAdd(counters[k_counter_manifold_count], manifold_count);

@@ -15,7 +15,7 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
     const auto want_colour = [&](uint body) {
         if (is_movable(state.shapes[body])) ++state.body_colours[body_word(body, k_new_edges)];
     };
-    for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
+    for (uint pair = 0; pair < state.counters[k_counter_graph_pairs]; ++pair) {
         const Manifold& manifold = state.manifolds[pair];
         uint colour = k_inactive_colour;
         if (is_active(manifold)) {

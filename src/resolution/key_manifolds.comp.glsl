@@ -21,7 +21,7 @@ layout(std430) buffer Counters { uint counters[]; };
 void main()
 {
     uint pair = item_index();
-    if (pair >= counters[k_counter_pair_count]) return;
+    if (pair >= counters[k_counter_graph_pairs]) return;
     uint colour = manifold_keys[pair];
     if (colour == k_inactive_colour) {
         manifold_keys[pair] = inactive_key(parameters.body_count);

@@ -7,7 +7,7 @@
 namespace talus::engine {
 
 static void key_manifolds_on_cpu(CpuState& state, const Launch&) {
-    for (uint pair = 0; pair < state.counters[k_counter_pair_count]; ++pair) {
+    for (uint pair = 0; pair < state.counters[k_counter_graph_pairs]; ++pair) {
         uint& key = state.manifold_keys[pair];
         const uint colour = key;
         if (colour == k_inactive_colour) {

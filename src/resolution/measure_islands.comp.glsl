@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: names its island, and adds itself to it. A hub counts as more than a group can solve,
 // as it needs launches of its own.
-// Reads: BodyColours.
+// Reads: Counters, BodyColours.
 // Writes: Islands; of the island IslandSizes, IslandStarts (its bodies) and Substeps; in IslandFill, that it is awake.
 // Needs: barriers after join_islands and assign_colours.
 // Overflow: none.
@@ -10,6 +10,7 @@
 
 layout(local_size_x = 64) in;
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) coherent buffer Islands { uint islands[]; };
 layout(std430) buffer Substeps { uint substeps[]; };
@@ -31,7 +32,7 @@ uint root_of(uint body)
 void main()
 {
     uint body = item_index();
-    if (body >= parameters.body_count || islands[body] == k_none) return;
+    if (body >= counters[k_counter_graph_bodies] || islands[body] == k_none) return;
     uint island = root_of(body);
     islands[body] = island;
     atomicMax(substeps[island], substeps[body]);

@@ -8,7 +8,7 @@
 namespace talus::engine {
 
 static void measure_islands_on_cpu(CpuState& state, const Launch&) {
-    for (uint body = 0; body < state.parameters.body_count; ++body) {
+    for (uint body = 0; body < state.counters[k_counter_graph_bodies]; ++body) {
         if (state.islands[body] == k_none) continue;
         const uint island = state.islands[body] = root_of(state.islands, body);
         state.substeps[island] = max(state.substeps[island], state.substeps[body]);

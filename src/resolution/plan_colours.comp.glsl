@@ -29,7 +29,8 @@ void main()
     uint overflow_count = counters[measured ? k_counter_launched_overflow : k_counter_overflow_count];
     uint did_not_fit = counters[k_counter_did_not_fit];
     bool has_unweighed_hubs = counters[k_counter_hub_count] > 0u && parameters.hub_capacity == 0u;
-    bool due = counters[k_counter_graph_due] != 0u || has_unweighed_hubs;
+    uint made_for = counters[k_counter_graph_due];
+    bool due = (made_for != 0u && made_for != k_due_for_hubs) || has_unweighed_hubs;
     if (args.z == 1u && due) did_not_fit |= k_fit_graph;
     if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;
@@ -59,6 +60,6 @@ void main()
     counters[k_counter_launched_manifolds] = launches ? colour_offsets[k_overflow_colour + 1u] - colour_offsets[0] : 0u;
     arrivals[0] = 0u; // of solve_persistent
     counters[k_counter_graph_was_due] = due ? 1u : 0u;
-    bool is_next_due = on == 0u || counters[k_counter_graph_due] == k_due_twice;
+    bool is_next_due = on == 0u || made_for == k_due_twice;
     counters[k_counter_graph_due] = is_next_due ? 1u : 0u;
 }

@@ -13,7 +13,8 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     const Parameters& p = state.parameters;
     uint& did_not_fit = counters[k_counter_did_not_fit];
     const bool has_unweighed_hubs = counters[k_counter_hub_count] > 0 && p.hub_capacity == 0;
-    const bool due = counters[k_counter_graph_due] != 0 || has_unweighed_hubs;
+    const uint made_for = counters[k_counter_graph_due];
+    const bool due = (made_for != 0 && made_for != k_due_for_hubs) || has_unweighed_hubs;
     if (launch.args[2] == 1 && due) did_not_fit |= k_fit_graph;
     const uint colours = counters[measured ? k_counter_launched_colours : k_counter_colour_demand];
     const uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];
@@ -42,7 +43,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_launched_manifolds] = launches ? offsets[k_overflow_colour + 1] - offsets[0] : 0;
     state.arrivals[0] = 0;
     counters[k_counter_graph_was_due] = due ? 1 : 0;
-    const bool is_next_due = on == 0 || counters[k_counter_graph_due] == k_due_twice;
+    const bool is_next_due = on == 0 || made_for == k_due_twice;
     counters[k_counter_graph_due] = is_next_due ? 1 : 0;
     state.dispatches[k_dispatch_reports] = groups_for(on * counters[k_counter_pair_count], k_group_size);
     state.dispatches[k_dispatch_report_ends] = groups_for(on * counters[k_counter_old_pair_count], k_group_size);

@@ -2,6 +2,7 @@
 // The launches of the resolution, in order.
 #include "resolution/resolution.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "primitives/primitives.h"
@@ -26,15 +27,15 @@ static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel
                     .args = {first, plan.near_pairs, plan.may_be_multirate()}});
 }
 
-/// The islands of a large world, behind begin_islands, and which of them a work group solves.
+/// The islands of a large world, and which of them a work group solves.
 static void find_island_groups(Device& device, const StepPlan& plan) {
-    device.run({.kernel = join_islands, .slot = k_dispatch_pairs});
+    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs});
     device.run({.kernel = measure_islands, .items = plan.body_count});
-    exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_body_count, k_none);
+    exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_graph_bodies, k_none);
     device.run({.kernel = group_islands,
                 .items = plan.body_count,
                 .args = {plan.has_groups(), plan.singles, plan.multirate_from()}});
-    device.run({.kernel = key_manifolds, .slot = k_dispatch_pairs});
+    device.run({.kernel = key_manifolds, .slot = k_dispatch_graph_pairs});
 }
 
 void wake(Device& device, const StepPlan& plan) {
@@ -43,23 +44,25 @@ void wake(Device& device, const StepPlan& plan) {
     device.run({.kernel = wake_neighbours, .items = plan.pair_capacity});
 }
 
+// What it launches does nothing in a step whose graph is still the last one's.
 static void make_graph(Device& device, const StepPlan& plan) {
-    // Colours and islands are found beside each other.
+    const Sort order{.keys = BufferId::ManifoldKeys,
+                     .values = BufferId::ManifoldOrder,
+                     .keys_swap = BufferId::SortedManifoldKeys,
+                     .values_swap = BufferId::SortedManifoldOrder,
+                     .capacity = plan.pair_capacity,
+                     .count_counter = k_counter_graph_pairs,
+                     .bits = manifold_key_bits(plan),
+                     .slot = k_dispatch_graph_tiles};
+    begin_sort(device, order);
     const bool measures_islands = plan.measures_islands();
-    device.run({.kernel = clear_colours, .items = plan.body_count, .overlaps_next = measures_islands});
-    if (measures_islands) device.run({.kernel = begin_islands, .items = plan.body_count});
-    device.run({.kernel = keep_colours, .slot = k_dispatch_pairs});
+    device.run({.kernel = begin_graph, .items = std::max(plan.body_count, 1u), .args = {measures_islands}});
+    device.run({.kernel = keep_colours, .slot = k_dispatch_graph_pairs});
+    // Colours and islands are found beside each other.
     device.run({.kernel = assign_colours, .items = plan.colouring_groups, .overlaps_next = measures_islands});
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
     if (measures_islands) find_island_groups(device, plan);
-    sort_by_key(device, {.keys = BufferId::ManifoldKeys,
-                         .values = BufferId::ManifoldOrder,
-                         .keys_swap = BufferId::SortedManifoldKeys,
-                         .values_swap = BufferId::SortedManifoldOrder,
-                         .capacity = plan.pair_capacity,
-                         .count_counter = k_counter_pair_count,
-                         .bits = manifold_key_bits(plan),
-                         .slot = k_dispatch_pair_tiles});
+    sort_by_key(device, order);
     if (plan.needs_launches())
         find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
 }

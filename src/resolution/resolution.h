@@ -23,12 +23,11 @@ void store_impulses(Device&, const StepPlan&);
 /// The kernel that makes all passes in one launch.
 const Kernel& persistent_solver(const StepPlan&);
 
-extern const Kernel clear_colours;
+extern const Kernel begin_graph;
 extern const Kernel keep_colours;
 extern const Kernel assign_colours;
 extern const Kernel weigh_hubs;
 extern const Kernel find_islands;
-extern const Kernel begin_islands;
 extern const Kernel join_islands;
 extern const Kernel measure_islands;
 extern const Kernel group_islands;

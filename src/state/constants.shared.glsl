@@ -93,7 +93,10 @@ const uint k_counter_graph_was_due = 27u; // 1 where this step had to make its g
 const uint k_counter_launched_manifolds = 28u;
 const uint k_counter_launched_bodies = 29u;
 const uint k_counter_multirate_islands = 30u; // that launches solve
-const uint k_counter_words = 31u;
+// What the constraint graph is made of: all, or 0 where it is the last step's.
+const uint k_counter_graph_bodies = 31u; // body slots
+const uint k_counter_graph_pairs = 32u;
+const uint k_counter_words = 33u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -110,21 +113,24 @@ const uint k_fit_manifolds = 512u; // that are solved
 // In k_counter_graph_due: nor will this step's be the next one's. A body that has become a hub keeps the colours of its old
 // contacts for one step.
 const uint k_due_twice = 2u;
+// Or: it is made where it has launches, as contacts of hubs may get other colours; nothing else says that it needs them.
+const uint k_due_for_hubs = 3u;
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.
 const uint k_dispatch_pairs = 0u;      // groups of 64 pairs
-const uint k_dispatch_pair_tiles = 1u; // sort tiles of pairs
-const uint k_dispatch_old_pairs = 2u;  // groups of 64 pairs of the last step
-const uint k_dispatch_bodies = 3u;     // groups of 64 bodies
-const uint k_dispatch_manifolds = 4u;  // groups of 64 manifolds
-const uint k_dispatch_islands = 5u;    // a group for each body slot, which may lead an island, or for each group of islands
-const uint k_dispatch_colours = 6u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
+const uint k_dispatch_old_pairs = 1u;  // groups of 64 pairs of the last step, where they have to be looked up by their bodies
+const uint k_dispatch_bodies = 2u;     // groups of 64 bodies
+const uint k_dispatch_manifolds = 3u;  // groups of 64 manifolds
+const uint k_dispatch_islands = 4u;    // a group for each body slot, which may lead an island, or for each group of islands
+const uint k_dispatch_colours = 5u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
 const uint k_dispatch_overflow = k_dispatch_colours + k_max_colours; // one group if there is an overflow set
 const uint k_dispatch_hubs = k_dispatch_overflow + 1u; // one group for each hub
 const uint k_dispatch_reports = k_dispatch_hubs + 1u; // groups of 64 pairs, for contact events
 const uint k_dispatch_report_ends = k_dispatch_reports + 1u; // groups of 64 pairs of the last step
-const uint k_dispatch_count = k_dispatch_report_ends + 1u;
+const uint k_dispatch_graph_pairs = k_dispatch_report_ends + 1u; // groups of 64 pairs, where a constraint graph is made
+const uint k_dispatch_graph_tiles = k_dispatch_graph_pairs + 1u; // sort tiles of them
+const uint k_dispatch_count = k_dispatch_graph_tiles + 1u;
 
 const uint k_block_records = 32u; // see device/gl/record_blocks.h
 const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each
