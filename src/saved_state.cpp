@@ -109,6 +109,7 @@ void Simulation::restore(const SavedState& saved) {
     solved_count = static_cast<uint>(constraints.size());
     plan.most_launched = k_none;
     pairs_last.begin_anew();
+    list_lasts.begin_anew();
     begin_graph_anew();
     settings.broad_phase = saved.settings.broad_phase; // so that no search is due which was none before
     newest_report.growths = growths;

@@ -154,6 +154,9 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::HubChanges, 1);
     grow_everywhere(BufferId::Arrivals, k_arrival_words);
     grow_everywhere(BufferId::Rests, 1);
+    grow_everywhere(BufferId::Strays, k_most_strays);
+    grow_everywhere(BufferId::KnownPairs, k_most_stray_pairs);
+    grow_everywhere(BufferId::NearPairs, k_most_stray_pairs);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
     // Reports stay within the memory of the host where the resolution runs there.
@@ -269,6 +272,7 @@ void Simulation::search_anew() {
     constexpr std::array<uint, 2> none{};
     write_behind_steps(BufferId::Counters, k_counter_searched_slots * sizeof(uint), std::as_bytes(std::span(none)));
     pairs_last.begin_anew();
+    list_lasts.begin_anew();
     begin_graph_anew();
 }
 
@@ -380,7 +384,7 @@ void Simulation::prepare_kernels(const Population& population) {
     note(Stage::NarrowPhase);
     for (std::size_t i = 0; i < k_stage_count; ++i)
         note(Stage{static_cast<int>(i)});
-    first.searches = false;
+    first.search = Search::None;
     note(Stage::BroadPhase);
     if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
     gpu->prepare(list.kernels);
@@ -391,7 +395,8 @@ void Simulation::enqueue(Pending entry) {
     prepare_kernels(entry.population);
     StepPlan now = plan_step(entry.population);
     const bool other_bodies = entry.population.slots != enqueued_slots;
-    now.searches = !pairs_last.holds() || moves_bodies(entry.changes) || other_bodies;
+    const bool strays = !pairs_last.holds(), all = !list_lasts.holds() || moves_bodies(entry.changes) || other_bodies;
+    now.search = all || (strays && now.sweeps_in_group()) ? Search::All : strays ? Search::Strays : Search::None;
     now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || settings.sleeping ||
                       placement.hybrid() || !has_the_graph_of(now, newest_plan);
     now.makes_graph = now.other_graph || !graph_lasts.holds();
@@ -429,7 +434,8 @@ void Simulation::finish_oldest() {
         return;
     }
     ++finished_count;
-    pairs_last.note(counters[k_counter_searched] != 0);
+    pairs_last.note(counters[k_counter_strayed] != 0);
+    list_lasts.note(counters[k_counter_searched] != 0);
     graph_lasts.note(counters[k_counter_graph_was_due] != 0);
     newest_ticket = done.ticket;
     newest_has_poses = done.with_poses;
@@ -553,10 +559,12 @@ void Simulation::redo(std::span<const uint> counters) {
     const uint manifolds = counters[k_counter_manifold_count];
     const uint hub_manifolds = counters[k_counter_hub_manifolds];
     if ((reasons & ~k_fit_graph) != 0) pairs_last.begin_anew();
+    if ((reasons & ~(k_fit_graph | k_fit_strays)) != 0) list_lasts.begin_anew();
     graph_lasts.begin_anew();
     if ((reasons & k_fit_strays) != 0) pairs_last.was_wrong();
+    if ((reasons & k_fit_all) != 0) list_lasts.was_wrong();
     if ((reasons & k_fit_graph) != 0) graph_lasts.was_wrong();
-    if ((reasons & ~(k_fit_strays | k_fit_graph)) != 0) {
+    if ((reasons & ~(k_fit_strays | k_fit_all | k_fit_graph)) != 0) {
         log(LogLevel::Info, what_did_not_fit(counters));
         ++growths;
     }

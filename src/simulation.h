@@ -157,6 +157,7 @@ private:
     std::uint64_t finished_count = 0;
     std::uint32_t growths = 0;
     Trust pairs_last;        ///< that a step need not search for pairs
+    Trust list_lasts;        ///< that it need not search for all
     Trust graph_lasts;       ///< that a step need not make its constraint graph
     bool other_graph = true; ///< see begin_graph_anew()
     StepPlan newest_plan;    ///< of the step that was enqueued last

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 10;
+constexpr std::uint32_t k_version = 11;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
@@ -160,6 +160,7 @@ void check(SavedState& state) {
         (!state.rests.empty() && state.rests.size() != slots) || counters[k_counter_did_not_fit] != 0 ||
         counters[k_counter_body_count] > slots || counters[k_counter_old_pair_count] != report.pairs ||
         counters[k_counter_pair_demand] != report.pairs || counters[k_counter_search_count] != 0 ||
+        counters[k_counter_stray_count] != 0 || counters[k_counter_added_pairs] > report.pairs ||
         counters[k_counter_pairs_changed] != 0 || counters[k_counter_searched_slots] != state.boxes.size() ||
         state.boxes.size() > slots)
         throw Error("its counts do not go together");

@@ -20,6 +20,9 @@ struct Population {
     Waking waking = Waking::None;
 };
 
+/// What the search for pairs looks for: those of a few bodies that have left their boxes, or all.
+enum class Search : uint { None, Strays, All };
+
 /// Of so many groups that a GPU can run at a time, the persistent launch leaves out one for other launches.
 inline constexpr uint k_groups_a_spare = 64;
 
@@ -27,7 +30,7 @@ inline constexpr uint k_groups_a_spare = 64;
 struct StepPlan {
     BroadPhase broad_phase = BroadPhase::SweepAndPrune;
     uint body_count = 0;         ///< body slots in use
-    bool searches = true;        ///< the search for pairs gets launches, which it may turn out not to need
+    Search search = Search::All; ///< which gets launches, that it may turn out not to need
     bool makes_graph = true;     ///< the constraint graph gets launches; without them it has to be the last step's
     bool other_graph = false;    ///< the host knows that it is not the last step's; has makes_graph too
     uint pair_capacity = 0;      ///< room in the buffers that have a record a pair
@@ -61,6 +64,8 @@ struct StepPlan {
 
     /// Islands are found, and each has sub-steps of its own.
     bool has_islands() const { return small || !one_island; }
+    /// The search for all pairs, which asks itself whether it is due.
+    bool sweeps_in_group() const { return small && broad_phase == BroadPhase::SweepAndPrune; }
     /// In a large world; also where no more is wanted of them than whether they sleep.
     bool measures_islands() const { return !small && (!one_island || sleeping); }
     /// A kinematic body may touch several islands, and moves in one number of sub-steps; what bounces has hits, which

@@ -16,6 +16,8 @@
 namespace talus::tests {
 namespace {
 
+using engine::uint;
+
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 using Direction = std::array<double, 3>;
@@ -358,6 +360,155 @@ TEST_P(BroadPhases, what_comes_into_an_old_box_meets_its_neighbours) {
     EXPECT_EQ(world.report().manifolds, 2u);
 }
 
+// ---- strays: a few bodies that have left their boxes ----
+
+constexpr int k_row = 12; // boxes of the floor that strays cross
+
+/// Boxes of 1 m on the ground, 4 cm apart, and above them some that slide 5 mm over their tops, of which two come past
+/// each other.
+std::vector<BodyDefinition> floor_with_sliders(int sliders, float speed = 0.5f) {
+    std::vector<BodyDefinition> bodies{ground()};
+    for (int x = 0; x < k_row; ++x)
+        for (int z = 0; z < k_row; ++z)
+            bodies.push_back(box_at({1.04f * static_cast<float>(x), 0.5f, 1.04f * static_cast<float>(z)}));
+    for (int i = 0; i < sliders; ++i) {
+        const bool there = i % 2 == 0;
+        bodies.push_back(
+            box_at({1.3f + 0.5f * static_cast<float>(i / 2), 1.205f, there ? 0.5f : 1.6f}, {0.4f, 0.4f, 0.8f}));
+        bodies.back().pose.position.x += there ? 0.0f : 0.41f;
+        bodies.back().gravity_scale = 0.0f;
+        bodies.back().velocity.linear = {0.0f, 0.0f, there ? speed : -speed};
+    }
+    return bodies;
+}
+
+Settings with_tree() {
+    Settings settings;
+    settings.broad_phase = BroadPhase::Bvh; // a small world that sweeps and prunes looks for all at once
+    return settings;
+}
+
+TEST_P(BroadPhases, strays_are_searched_for_by_themselves) {
+    EngineRun run(options_on(GetParam()), floor_with_sliders(12, 1.0f), with_tree());
+    run.step(30); // the floor settles
+    int by_themselves = 0, all = 0;
+    for (int i = 0; i < 60; ++i) {
+        run.step();
+        const bool searched = run.counter(engine::k_counter_searched) != 0;
+        all += searched ? 1 : 0;
+        by_themselves += run.counter(engine::k_counter_strayed) != 0 && !searched ? 1 : 0;
+        Pairs slots;
+        for (const engine::Manifold& manifold : run.manifolds()) // one a pair
+            slots.emplace_back(manifold.body_a, manifold.body_b);
+        const auto added = slots.end() - run.counter(engine::k_counter_added_pairs);
+        EXPECT_LE(run.counter(engine::k_counter_added_pairs), slots.size() / engine::k_share_added + 36u);
+        EXPECT_EQ(std::set(slots.begin(), slots.end()).size(), slots.size()) << "a pair is in the list twice";
+        EXPECT_EQ(std::set(added, slots.end()).size(), static_cast<std::size_t>(slots.end() - added));
+    }
+    EXPECT_GT(by_themselves, 40);
+    EXPECT_GT(all, 0) << "the list gets longer and longer";
+}
+
+TEST_P(BroadPhases, strays_have_all_pairs_that_they_need) {
+    World world = make_world(with_tree());
+    world.add(floor_with_sliders(6));
+    for (int i = 0; i < 120; ++i) {
+        std::vector<Resting> oracle;
+        for (const BodyId id : world.bodies())
+            oracle.push_back(resting(world, id));
+        world.step();
+        const Pairs pairs = pairs_of(world);
+        const std::set<std::pair<std::uint32_t, std::uint32_t>> found(pairs.begin(), pairs.end());
+        constexpr double k_skins = -0.005; // m, of both
+        for (std::size_t a = 0; a < oracle.size(); ++a) {
+            for (std::size_t b = a + 1; b < oracle.size(); ++b) {
+                const bool touch = (oracle[a].movable || oracle[b].movable) && gap(oracle[a], oracle[b]) < k_skins;
+                ASSERT_TRUE(!touch || found.contains({oracle[a].index, oracle[b].index})) << "step " << i;
+            }
+        }
+    }
+}
+
+TEST_P(BroadPhases, the_bits_do_not_depend_on_whether_strays_were_searched_for_by_themselves) {
+    for (const int sliders : {6, 40}) { // of 40 some hit each other
+        World lasting = make_world(with_tree()), in_one_go = make_world(with_tree()), all = make_world(with_tree());
+        for (World* world : {&lasting, &in_one_go, &all})
+            world->add(floor_with_sliders(sliders, 0.3f));
+        for (int i = 0; i < 120; ++i) {
+            lasting.step();
+            ASSERT_EQ(lasting.report().step, static_cast<std::uint64_t>(i + 1)); // waits
+            Settings settings = all.settings();
+            settings.broad_phase = i % 2 == 0 ? BroadPhase::Brute : BroadPhase::Bvh;
+            all.set_settings(settings);
+            all.step();
+            ASSERT_EQ(lasting.state_hash(), all.state_hash()) << sliders << " sliders, step " << i;
+        }
+        in_one_go.step(120);
+        EXPECT_EQ(in_one_go.state_hash(), lasting.state_hash());
+        EXPECT_EQ(in_one_go.report().pairs, lasting.report().pairs);
+    }
+}
+
+TEST_P(BroadPhases, many_strays_are_a_search_for_all) {
+    for (const uint count : {engine::k_most_strays, engine::k_most_strays + 1}) {
+        std::vector<BodyDefinition> bodies;
+        for (uint i = 0; i < 100; ++i) {
+            bodies.push_back(box_at({2.0f * static_cast<float>(i), 0.0f, 0.0f}));
+            if (i < count) bodies.back().velocity.linear = {0.0f, 0.06f, 0.0f}; // 2 mm in two steps, not in one
+        }
+        Settings settings = weightless();
+        settings.broad_phase = BroadPhase::Bvh;
+        EngineRun run(options_on(GetParam()), bodies, settings);
+        run.step();
+        EXPECT_EQ(run.counter(engine::k_counter_searched), 1u);
+        uint strayed = 0, searched = 0;
+        for (int i = 0; i < 8; ++i) {
+            run.step();
+            strayed += run.counter(engine::k_counter_strayed);
+            searched += run.counter(engine::k_counter_searched);
+        }
+        EXPECT_GT(strayed, 0u);
+        EXPECT_EQ(searched, count > engine::k_most_strays ? strayed : 0u) << count;
+    }
+}
+
+TEST_P(BroadPhases, a_stray_with_very_many_pairs_is_a_search_for_all) {
+    std::vector<BodyDefinition> bodies;
+    for (int x = 0; x < 40; ++x)
+        for (int z = 0; z < 30; ++z)
+            bodies.push_back(
+                box_at({0.2f * static_cast<float>(x), 0.0f, 0.2f * static_cast<float>(z)}, {0.1f, 0.1f, 0.1f}));
+    bodies.push_back(box_at({4.0f, 0.56f, 3.0f}, {9.0f, 1.0f, 7.0f}));
+    bodies.back().velocity.linear = {0.06f, 0.0f, 0.0f};
+    Settings settings = weightless();
+    settings.broad_phase = BroadPhase::Bvh;
+    settings.substeps = settings.max_substeps = 1;
+    EngineRun run(options_on(GetParam()), bodies, settings);
+    run.step();
+    uint strayed = 0, searched = 0;
+    for (int i = 0; i < 6; ++i) {
+        run.step();
+        strayed += run.counter(engine::k_counter_strayed);
+        searched += run.counter(engine::k_counter_searched);
+        EXPECT_EQ(run.counter(engine::k_counter_pair_count), 1200u);
+    }
+    EXPECT_GT(strayed, 0u);
+    EXPECT_EQ(searched, strayed);
+}
+
+TEST_P(BroadPhases, a_world_goes_on_from_a_snapshot_with_pairs_that_were_added) {
+    World world = make_world(with_tree()), other = make_world(with_tree());
+    world.add(floor_with_sliders(6));
+    world.step(45);
+    other.restore(world.snapshot());
+    for (int i = 0; i < 60; ++i) {
+        world.step();
+        other.step();
+        ASSERT_EQ(other.report().pairs, world.report().pairs) << i;
+        ASSERT_EQ(other.state_hash(), world.state_hash()) << i;
+    }
+}
+
 TEST_P(BroadPhases, a_step_behind_one_that_did_not_fit_leaves_pairs_and_boxes_alone) {
     using engine::BufferId, engine::uint;
     EngineRun run(options_on(GetParam()), bodies_of("pyramid:base=6"));
@@ -370,14 +521,14 @@ TEST_P(BroadPhases, a_step_behind_one_that_did_not_fit_leaves_pairs_and_boxes_al
     run.simulation.write(BufferId::Poses, 0, std::span<const engine::BodyPose>(run.table.poses));
     run.simulation.write(BufferId::Counters, engine::k_counter_did_not_fit, std::span(&engine::k_fit_colours, 1));
     for (const BroadPhase kind : {BroadPhase::SweepAndPrune, BroadPhase::Bvh, BroadPhase::Brute}) {
-        EXPECT_TRUE(run.find_pairs(kind).empty());
+        EXPECT_TRUE(run.pairs_of_broad_phase(kind).empty());
         EXPECT_EQ(run.read<float>(BufferId::Aabbs, 8 * slots), boxes);
         EXPECT_EQ(run.counter(engine::k_counter_pair_demand), pairs);
         EXPECT_EQ(run.counter(engine::k_counter_searched_slots), slots);
     }
     constexpr uint fits = 0;
     run.simulation.write(BufferId::Counters, engine::k_counter_did_not_fit, std::span(&fits, 1));
-    run.find_pairs(BroadPhase::Bvh);
+    run.pairs_of_broad_phase(BroadPhase::Bvh);
     EXPECT_NE(run.read<float>(BufferId::Aabbs, 8 * slots), boxes);
 }
 

@@ -76,9 +76,15 @@ public:
         step_as(plan);
     }
 
-    /// The broad phase alone, of bodies as they are; its pairs in the order in which it finds them. There has to be
-    /// room for them.
+    /// The broad phase alone, of bodies as they are, which searches for all pairs; they are in the order in which it
+    /// finds them. There has to be room for them.
     std::vector<engine::Pair> find_pairs(BroadPhase kind) {
+        simulation.search_anew();
+        return pairs_of_broad_phase(kind);
+    }
+
+    /// The same, but it may find that no search is due, or that of some bodies.
+    std::vector<engine::Pair> pairs_of_broad_phase(BroadPhase kind) {
         engine::StepPlan plan = simulation.plan_step(table.population());
         plan.broad_phase = kind;
         engine::Device& device = simulation.state_device();
@@ -125,6 +131,7 @@ private:
         plan.colour_capacity = engine::k_first_hub_colour;
         plan.overflow = true;
         plan.least_multirate = least_multirate;
+        plan.other_graph = true; // the step before may have been made another way
         return plan;
     }
 

@@ -2,6 +2,8 @@
 // The launches of the broad phase, in order.
 #include "broad_phase/broad_phase.h"
 
+#include <algorithm>
+
 #include "primitives/primitives.h"
 #include "state/formulas.h"
 #include "step.h"
@@ -57,14 +59,7 @@ static void find_pairs(Device& device, const Kernel& kernel, uint body_count, ui
     device.run({.kernel = kernel, .items = body_count, .args = {write, tree_top}});
 }
 
-// What it launches does nothing in a step whose pairs are still those of the last search.
-static void search(Device& device, const StepPlan& plan) {
-    if (plan.broad_phase == BroadPhase::SweepAndPrune && plan.small) {
-        device.run({.kernel = order_bodies, .items = 1});
-        device.run({.kernel = sweep_in_group, .items = 1});
-        return;
-    }
-    device.run({.kernel = find_strays, .items = plan.body_count});
+static void search_all(Device& device, const StepPlan& plan) {
     device.run({.kernel = update_aabbs, .items = plan.body_count});
     if (plan.broad_phase == BroadPhase::Brute) {
         find_pairs(device, test_all_pairs, plan.body_count);
@@ -79,14 +74,27 @@ static void search(Device& device, const StepPlan& plan) {
     }
 }
 
+// What it launches does nothing in a step whose pairs are still those of the last search, or where a smaller search
+// does.
+static void search(Device& device, const StepPlan& plan) {
+    if (plan.search == Search::All && plan.sweeps_in_group()) {
+        device.run({.kernel = order_bodies, .items = 1});
+        device.run({.kernel = sweep_in_group, .items = 1});
+        return;
+    }
+    device.run({.kernel = find_strays, .items = plan.body_count});
+    if (plan.search == Search::None) return;
+    device.run({.kernel = search_strays, .items = std::max(plan.body_count, plan.pair_capacity)});
+    device.run({.kernel = add_pairs, .items = 1});
+    if (plan.search == Search::All) search_all(device, plan);
+}
+
 void broad_phase(Device& device, const StepPlan& plan) {
-    if (plan.searches)
-        search(device, plan);
-    else
-        device.run({.kernel = find_strays, .items = plan.body_count});
+    search(device, plan);
     device.run({.kernel = plan_pairs,
                 .items = 1,
-                .args = {plan.searches, plan.makes_graph, plan.other_graph, plan.watch != ContactWatch::None}});
+                .args = {static_cast<uint>(plan.search), plan.makes_graph, plan.other_graph,
+                         plan.watch != ContactWatch::None}});
 }
 
 } // namespace talus::engine

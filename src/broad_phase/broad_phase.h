@@ -12,6 +12,8 @@ struct StepPlan;
 void broad_phase(Device&, const StepPlan&);
 
 extern const Kernel find_strays;
+extern const Kernel search_strays;
+extern const Kernel add_pairs;
 extern const Kernel update_aabbs;
 extern const Kernel order_bodies;
 extern const Kernel gather_aabbs;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: whether it has left the box that the last search for pairs had of it. Then pairs are
-// searched for anew.
-// Reads: Counters, Poses, Velocities, Shapes, OrientedBoxes.
-// Writes: Counters.
+// One invocation is a body slot: whether it has left the box that the last search for pairs had of it. Then it is a stray, whose
+// pairs are searched for anew. Where there are many strays, or many pairs have been added to the list since it was made, or it is
+// not of these slots, all pairs are.
+// Reads: Poses, Velocities, Shapes, OrientedBoxes.
+// Writes: Counters; Strays, in any order.
 // Needs: nothing.
 // Overflow: none; after a step that did not fit nothing is searched for, as it will be done again with the pairs that it
 // had.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
+#include "broad_phase/strays.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -16,7 +18,8 @@ layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
-layout(std430) buffer Counters { uint counters[]; };
+layout(std430) coherent buffer Counters { uint counters[]; };
+layout(std430) writeonly buffer Strays { uint strays[]; };
 
 #include "broad_phase/box_now.glsl"
 
@@ -25,7 +28,12 @@ void main()
     uint body = item_index();
     if (body >= parameters.body_count || counters[k_counter_did_not_fit] != 0u) return;
     if (counters[k_counter_search_count] != 0u) return; // it is known already
-    bool strays = counters[k_counter_searched_slots] != parameters.body_count;
-    if (!strays) strays = !is_within(box_now(body), unpack(oriented_boxes[body]));
-    if (strays) counters[k_counter_search_count] = parameters.body_count; // all write the same
+    bool other_list = counters[k_counter_searched_slots] != parameters.body_count;
+    if (!other_list && is_within(box_now(body), unpack(oriented_boxes[body]))) return;
+    bool takes_all = other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
+    uint place = takes_all ? k_most_strays : atomicAdd(counters[k_counter_stray_count], 1u);
+    if (place < k_most_strays)
+        strays[place] = body;
+    else
+        counters[k_counter_search_count] = parameters.body_count; // all write the same
 }

@@ -8,17 +8,26 @@
 namespace talus::engine {
 
 static void find_strays_on_cpu(CpuState& state, const Launch&) {
-    if (state.counters[k_counter_did_not_fit] != 0) return;
+    Array<uint>& counters = state.counters;
+    if (counters[k_counter_did_not_fit] != 0) return;
     const uint body_count = state.parameters.body_count;
-    std::atomic<bool> strays = state.counters[k_counter_searched_slots] != body_count;
-    if (!strays) {
-        state.parallel(body_count, [&](uint body) {
-            if (strays.load(std::memory_order_relaxed)) return;
-            if (!is_within(box_now(state, body), state.oriented_boxes[body]))
-                strays.store(true, std::memory_order_relaxed);
-        });
-    }
-    if (strays) state.counters[k_counter_search_count] = body_count;
+    const bool other_list = counters[k_counter_searched_slots] != body_count;
+    const bool takes_all =
+        other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
+    std::atomic<uint> count = other_list ? k_most_strays + 1 : 0;
+    state.parallel(other_list ? 0 : body_count, [&](uint body) {
+        if (count.load(std::memory_order_relaxed) > k_most_strays) return;
+        if (is_within(box_now(state, body), state.oriented_boxes[body])) return;
+        const uint place = takes_all ? k_most_strays : count.fetch_add(1, std::memory_order_relaxed);
+        if (place < k_most_strays)
+            state.strays[place] = body;
+        else
+            count.store(k_most_strays + 1, std::memory_order_relaxed);
+    });
+    if (count > k_most_strays)
+        counters[k_counter_search_count] = body_count;
+    else
+        counters[k_counter_stray_count] = count;
 }
 
 const Kernel find_strays{"broad_phase/find_strays", find_strays_on_cpu};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation: how many pairs there are, whether they fit, and the launches that treat them.
-// args.x: 1 where the search had launches. args.y: 1 where the constraint graph has them. args.z: 1 where the host knows that it
+// args.x: which search had launches: 0 none, 1 of strays, 2 of all. args.y: 1 where the constraint graph has them. args.z: 1 where the host knows that it
 // is not the last step's. args.w: 1 where the last step's pairs are looked up in any case.
 // Reads: Counters.
 // Writes: Counters, Dispatches, Arrivals.
@@ -22,15 +22,17 @@ void take_pairs(bool due)
         counters[k_counter_pair_demand] = 0u;
         counters[k_counter_pairs_changed] = 0u;
     }
-    if (args.x == 1u) {
+    if (args.x == 2u) {
         if (due) {
             counters[k_counter_pair_demand] = counters[k_counter_found_pairs];
+            counters[k_counter_added_pairs] = 0u;
             counters[k_counter_pairs_changed] = 1u;
         }
         counters[k_counter_searched_slots] = parameters.body_count;
     } else if (due || counters[k_counter_pairs_changed] != 0u) {
-        counters[k_counter_did_not_fit] |= k_fit_strays;
+        counters[k_counter_did_not_fit] |= k_fit_all;
     }
+    if (args.x == 0u && counters[k_counter_stray_count] > 0u) counters[k_counter_did_not_fit] |= k_fit_strays;
     if (counters[k_counter_pair_demand] > parameters.pair_capacity) {
         counters[k_counter_did_not_fit] |= k_fit_pairs;
         counters[k_counter_searched_slots] = k_none; // not all were written
@@ -41,7 +43,7 @@ void main()
 {
     bool due = counters[k_counter_search_count] != 0u;
     counters[k_counter_searched] = due ? 1u : 0u;
-    counters[k_counter_search_count] = 0u;
+    counters[k_counter_strayed] = due || counters[k_counter_stray_count] > 0u ? 1u : 0u;
     if (counters[k_counter_did_not_fit] == 0u)
         take_pairs(due);
     else if (due)
@@ -55,6 +57,10 @@ void main()
         counters[k_counter_graph_due] = 1u;
     else if (may_have_other_shares && counters[k_counter_graph_due] == 0u)
         counters[k_counter_graph_due] = k_due_for_hubs;
+    counters[k_counter_search_count] = 0u;
+    counters[k_counter_stray_count] = 0u;
+    counters[k_counter_known_pairs] = 0u;
+    counters[k_counter_near_pairs] = 0u;
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;
     counters[k_counter_launched_bodies] = 0u;

@@ -3,25 +3,29 @@
 #include "broad_phase/broad_phase.h"
 #include "device/cpu/cpu_state.h"
 #include "state/formulas.h"
+#include "step.h"
 
 namespace talus::engine {
 
-static void take_pairs(CpuState& state, bool due, bool had_launches) {
+static void take_pairs(CpuState& state, bool due, Search launched) {
     const Array<uint>& counters = state.counters;
     const Parameters& p = state.parameters;
     if (p.body_count == 0) { // nothing has looked at the bodies
         counters[k_counter_pair_demand] = 0;
         counters[k_counter_pairs_changed] = 0;
     }
-    if (had_launches) {
+    if (launched == Search::All) {
         if (due) {
             counters[k_counter_pair_demand] = counters[k_counter_found_pairs];
+            counters[k_counter_added_pairs] = 0;
             counters[k_counter_pairs_changed] = 1;
         }
         counters[k_counter_searched_slots] = p.body_count;
     } else if (due || counters[k_counter_pairs_changed] != 0) {
-        counters[k_counter_did_not_fit] |= k_fit_strays;
+        counters[k_counter_did_not_fit] |= k_fit_all;
     }
+    if (launched == Search::None && counters[k_counter_stray_count] > 0)
+        counters[k_counter_did_not_fit] |= k_fit_strays;
     if (counters[k_counter_pair_demand] > p.pair_capacity) {
         counters[k_counter_did_not_fit] |= k_fit_pairs;
         counters[k_counter_searched_slots] = k_none; // not all were written
@@ -32,9 +36,9 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& counters = state.counters;
     const bool due = counters[k_counter_search_count] != 0;
     counters[k_counter_searched] = due ? 1 : 0;
-    counters[k_counter_search_count] = 0;
+    counters[k_counter_strayed] = due || counters[k_counter_stray_count] > 0 ? 1 : 0;
     if (counters[k_counter_did_not_fit] == 0)
-        take_pairs(state, due, launch.args[0] == 1);
+        take_pairs(state, due, Search{launch.args[0]});
     else if (due)
         counters[k_counter_searched_slots] = k_none; // the search was not made to its end
     const uint demand = counters[k_counter_pair_demand];
@@ -46,7 +50,9 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
         counters[k_counter_graph_due] = 1;
     else if (may_have_other_shares && counters[k_counter_graph_due] == 0)
         counters[k_counter_graph_due] = k_due_for_hubs;
-    counters[k_counter_report_count] = 0;
+    for (const uint counter : {k_counter_search_count, k_counter_stray_count, k_counter_known_pairs,
+                               k_counter_near_pairs, k_counter_report_count})
+        counters[counter] = 0;
     counters[k_counter_sleeping_bodies] = 0;
     counters[k_counter_launched_bodies] = 0;
     state.arrivals[0] = 0;

@@ -97,17 +97,20 @@ bool is_near(Pair pair)
     return is_candidate(compute_aabb(box_now(pair.body_a)), compute_aabb(box_now(pair.body_b)));
 }
 
+// Pairs that have been added come behind those of the last step.
+bool was_listed(uint pair_index) { return pair_index < counters[k_counter_old_pair_count]; }
+
 uint old_manifold_of(uint pair_index, Pair pair)
 {
     if (counters[k_counter_pairs_changed] != 0u) return find_old_manifold(pair.body_a, pair.body_b);
-    return unpack(old_manifolds[pair_index]).point_count > 0u ? pair_index : k_none;
+    return was_listed(pair_index) && unpack(old_manifolds[pair_index]).point_count > 0u ? pair_index : k_none;
 }
 
 void compare_with_last(uint pair_index, Manifold manifold)
 {
     if (counters[k_counter_pairs_changed] != 0u) return;
     Manifold old = unpack(old_manifolds[pair_index]);
-    if (is_active(old) != is_active(manifold))
+    if ((was_listed(pair_index) && is_active(old)) != is_active(manifold))
         counters[k_counter_graph_due] = 1u;
     else if (is_active(manifold) && manifold.point_count != old.point_count)
         atomicAdd(counters[k_counter_contact_count], manifold.point_count - old.point_count);

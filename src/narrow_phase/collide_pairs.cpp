@@ -62,15 +62,20 @@ bool is_near(const CpuState& state, const Pair& pair) {
     return is_candidate(compute_aabb(box_now(state, pair.body_a)), compute_aabb(box_now(state, pair.body_b)));
 }
 
+/// Pairs that have been added come behind those of the last step.
+bool was_listed(const CpuState& state, uint pair_index) {
+    return pair_index < state.counters[k_counter_old_pair_count];
+}
+
 uint old_manifold_of(const CpuState& state, uint pair_index, bool same_pairs) {
     const Pair& pair = state.pairs[pair_index];
     if (!same_pairs) return find_old_manifold(state, pair.body_a, pair.body_b);
-    return state.old_manifolds[pair_index].point_count > 0 ? pair_index : k_none;
+    return was_listed(state, pair_index) && state.old_manifolds[pair_index].point_count > 0 ? pair_index : k_none;
 }
 
 void compare_with_last(CpuState& state, uint pair_index) {
     const Manifold &old = state.old_manifolds[pair_index], &manifold = state.manifolds[pair_index];
-    if (is_active(old) != is_active(manifold))
+    if ((was_listed(state, pair_index) && is_active(old)) != is_active(manifold))
         std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
     else if (is_active(manifold) && manifold.point_count != old.point_count)
         std::atomic_ref(state.counters[k_counter_contact_count])

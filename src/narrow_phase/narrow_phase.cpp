@@ -12,7 +12,7 @@ void index_old_manifolds(Device& device, const StepPlan& plan) {
 }
 
 void narrow_phase(Device& device, const StepPlan& plan) {
-    if (plan.searches || plan.watch != ContactWatch::None) index_old_manifolds(device, plan);
+    if (plan.search == Search::All || plan.watch != ContactWatch::None) index_old_manifolds(device, plan);
     device.run({.kernel = collide_pairs, .slot = k_dispatch_pairs});
 }
 

@@ -64,7 +64,7 @@ static void make_graph(Device& device, const StepPlan& plan) {
     if (measures_islands) find_island_groups(device, plan);
     sort_by_key(device, order);
     if (plan.needs_launches())
-        find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_pair_count);
+        find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_sorted_pairs);
 }
 
 void constraint_graph(Device& device, const StepPlan& plan) {

@@ -44,6 +44,9 @@ namespace talus::engine {
     X(PairCounts, pair_counts, uint, "u", Result)                                                                      \
     X(ScanSums, scan_sums, uint, "u", Scratch)                                                                         \
     X(Pairs, pairs, Pair, "uu", State)                                                                                 \
+    X(Strays, strays, uint, "u", Scratch)                                                                              \
+    X(KnownPairs, known_pairs, Pair, "uu", Scratch)                                                                    \
+    X(NearPairs, near_pairs, Pair, "uu", Scratch)                                                                      \
     /* narrow phase */                                                                                                 \
     X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
     X(OldManifolds, old_manifolds, Manifold, "uuuufffufffffffu", State)                                                \

@@ -60,7 +60,7 @@ const uint k_whole_hub = 0x80u; // Manifold::colour has it added where the manif
 
 // Words of the Counters buffer. "demand" counts what was wanted, also beyond a buffer's end.
 const uint k_counter_body_count = 0u;
-const uint k_counter_pair_demand = 1u;    // pairs of the last search
+const uint k_counter_pair_demand = 1u;    // pairs of the last search, and those that have been added since
 const uint k_counter_pair_count = 2u;     // 0 in a step that did not fit
 const uint k_counter_manifold_count = 3u; // pairs that touch; once colours are planned, without sleeping ones
 const uint k_counter_contact_count = 4u;  // contact points
@@ -81,11 +81,11 @@ const uint k_counter_report_count = 17u; // contact events
 const uint k_counter_sleeping_bodies = 18u;
 const uint k_counter_sleeping_manifolds = 19u; // of sleeping islands: nobody solves them
 // The search for pairs.
-const uint k_counter_search_count = 20u;   // body slots that are searched: all, or 0 where the last pairs still do
+const uint k_counter_search_count = 20u;   // body slots that are searched: all, or 0 where no search of all is due
 const uint k_counter_found_pairs = 21u;    // by the search
 const uint k_counter_searched_slots = 22u; // body slots of the last search whose pairs there was room for
 const uint k_counter_pairs_changed = 23u;  // 1 where pairs are other ones than OldManifolds has
-const uint k_counter_searched = 24u;       // 1 where this step had to search
+const uint k_counter_searched = 24u;       // 1 where this step had to search all
 const uint k_counter_singles = 25u; // islands with too many bodies to share a work group, and few enough for one of their own
 const uint k_counter_graph_due = 26u; // not 0 where the last step's constraint graph is not this one's
 const uint k_counter_graph_was_due = 27u; // 1 where this step had to make its graph
@@ -96,7 +96,14 @@ const uint k_counter_multirate_islands = 30u; // that launches solve
 // What the constraint graph is made of: all, or 0 where it is the last step's.
 const uint k_counter_graph_bodies = 31u; // body slots
 const uint k_counter_graph_pairs = 32u;
-const uint k_counter_words = 33u;
+const uint k_counter_sorted_pairs = 33u; // that the last graph was made of
+// The search for the pairs of a few bodies.
+const uint k_counter_stray_count = 34u; // bodies that have left their boxes, until it is known that they are too many
+const uint k_counter_known_pairs = 35u; // of strays, in the list already
+const uint k_counter_near_pairs = 36u;  // of strays, that are near now
+const uint k_counter_added_pairs = 37u; // since the last search of all
+const uint k_counter_strayed = 38u;     // 1 where this step had to search, a few bodies or all
+const uint k_counter_words = 39u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -106,9 +113,15 @@ const uint k_fit_hubs = 8u;
 const uint k_fit_search = 16u; // no room is missing: a driver ended the search for pairs
 const uint k_fit_reports = 32u; // the step itself is done; those behind it wait until its reports have been fetched
 const uint k_fit_groups = 64u; // groups that wait for each other were not run side by side: the step went wrong
-const uint k_fit_strays = 128u; // no room is missing: the step had to search for pairs, and had no launches for it
+const uint k_fit_strays = 128u; // no room is missing: bodies had left their boxes, and the search had no launches
 const uint k_fit_graph = 256u; // no room is missing: the step had to make its constraint graph, and had no launches for it
 const uint k_fit_manifolds = 512u; // that are solved
+const uint k_fit_all = 1024u; // no room is missing: the step had to search for all pairs, and had no launches for it
+
+// Bodies that are searched for by themselves where they have left their boxes; where there are more, all are.
+const uint k_most_strays = 64u;
+const uint k_most_stray_pairs = 1024u; // of theirs that are in the list, and that are near
+const uint k_share_added = 8u;         // of the pairs; where more have been added, all are searched for
 
 // In k_counter_graph_due: nor will this step's be the next one's. A body that has become a hub keeps the colours of its old
 // contacts for one step.

@@ -20,6 +20,7 @@ namespace talus::engine {
 
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
+#include "broad_phase/strays.shared.glsl"
 #include "broad_phase/sweep_axis.shared.glsl"
 #include "resolution/sleep.shared.glsl"
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// CPU twin of add_pairs.comp.glsl.
+#include <algorithm>
+#include <span>
+
+#include "broad_phase/box_now.h"
+#include "broad_phase/broad_phase.h"
+
+namespace talus::engine {
+
+static void add_pairs_on_cpu(CpuState& state, const Launch&) {
+    Array<uint>& counters = state.counters;
+    const std::span strays(state.strays.data, counters[k_counter_stray_count]);
+    if (strays.empty() || counters[k_counter_search_count] != 0) return;
+    const std::span known(state.known_pairs.data, counters[k_counter_known_pairs]);
+    const std::span pairs_near(state.near_pairs.data, counters[k_counter_near_pairs]);
+    std::ranges::sort(pairs_near, comes_before);
+    for (const Pair& pair : pairs_near) {
+        if (std::ranges::any_of(known, [&](const Pair& other) { return is_same_pair(other, pair); })) continue;
+        const uint place = counters[k_counter_pair_demand]++;
+        ++counters[k_counter_added_pairs];
+        if (place < state.parameters.pair_capacity) state.pairs[place] = pair;
+    }
+    for (const uint stray : strays) {
+        state.oriented_boxes[stray] = with_skin(box_now(state, stray));
+        state.aabbs[stray] = compute_aabb(state.oriented_boxes[stray]);
+    }
+}
+
+const Kernel add_pairs{"broad_phase/add_pairs", add_pairs_on_cpu, 1};
+
+} // namespace talus::engine

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A few bodies that have left the boxes of the last search get boxes anew, and the list of pairs gets those of their pairs that it has
+// not. Pairs that are near no more stay in it until all are searched for, so all others keep their places, and a constraint graph of
+// them may last.
+
+// Whether the list has had so many pairs added since it was made that a new one would be much shorter.
+inline bool is_much_added(uint added, uint pair_count) { return added > pair_count / k_share_added; }
+
+// The order in which pairs are added.
+inline bool comes_before(Pair a, Pair b)
+{
+    return a.body_a < b.body_a || (a.body_a == b.body_a && a.body_b < b.body_b);
+}
+
+inline bool is_same_pair(Pair a, Pair b) { return a.body_a == b.body_a && a.body_b == b.body_b; }
