@@ -3,7 +3,7 @@
 // first colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count as bodies for most
 // of their manifolds, and the loads on them. As many groups as have manifolds wait for each other after each part of a
 // round; it is one where little is new. What has kept a colour far down is looked at first, and gives it up where it may find a
-// better one.
+// better one. Where most is new, it is coloured again.
 // args.x: 1 to count how many groups can run at a time instead.
 // Reads: Manifolds, Shapes.
 // Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours, Uncoloured and Arrivals
@@ -61,6 +61,7 @@ struct Edge {
 // Of an entry of the list: kept from round to round, as most invocations have one only.
 Edge edge;
 uint entry_in_hand = k_none;
+bool again = false; // what gets a colour has had one
 
 uint body_at(uint end) { return end == 0u ? edge.manifold.body_a : edge.manifold.body_b; }
 
@@ -92,11 +93,13 @@ bool take_in_hand(uint entry)
     if (entry == entry_in_hand) return false;
     entry_in_hand = entry;
     edge.pair = uncoloured[entry];
+    if ((edge.pair & k_has_got) != 0u) edge.pair = k_none;
     if (edge.pair == k_none) return true;
     edge.manifold = manifolds[edge.pair];
     for (uint end = 0u; end < 2u; ++end)
         edge.movable[end] = is_movable(shapes[body_at(end)]);
-    edge.rank = edge_rank(body_at(0u), body_at(1u), edge.movable[0] && edge.movable[1]);
+    bool both_movable = edge.movable[0] && edge.movable[1];
+    edge.rank = again ? class_rank(manifold_keys[edge.pair], both_movable) : edge_rank(body_at(0u), body_at(1u), both_movable);
     edge.hub = hub_of(edge.manifold);
     edge.part = 0u;
     if (edge.hub != k_none) edge.part = part_of_load(edge.manifold, uintBitsToFloat(manifold_keys[edge.pair]), edge.hub);
@@ -106,7 +109,7 @@ bool take_in_hand(uint entry)
 void give_colour(uint colour)
 {
     manifold_keys[edge.pair] = colour;
-    uncoloured[entry_in_hand] = k_none;
+    uncoloured[entry_in_hand] = edge.pair | k_has_got;
     edge.pair = k_none;
 }
 
@@ -222,10 +225,7 @@ void decide(uint entry, uint rank_word, uint next_rank_word)
         if (edge.obstructs[end])
             atomicOr(body_colours[body_word(body_at(end), used_word(edge.colour))], used_bit(edge.colour));
     }
-    if (!edge.is_shared) {
-        count_unshared();
-        atomicMax(counters[k_counter_colour_demand], colours_down_to(edge.colour));
-    }
+    if (!edge.is_shared) count_unshared();
     give_colour(edge.colour);
 }
 
@@ -250,6 +250,37 @@ void colour_in_rounds(uint first, uint stride, uint entry_count)
         known_left_over = all_left_over;
         rank_word = next_rank_word;
     }
+}
+
+bool has_got_one(uint entry) { return uncoloured[entry] != k_none && (uncoloured[entry] & k_has_got) != 0u; }
+
+void begin_again(uint entry)
+{
+    if (!has_got_one(entry)) return;
+    uint pair = uncoloured[entry] & ~k_has_got;
+    uint colour = manifold_keys[pair];
+    Manifold manifold = manifolds[pair];
+    if (colour >= k_first_hub_colour || is_found_hub(manifold.body_a) || is_found_hub(manifold.body_b)) return;
+    uint others = ~used_bit(colour);
+    for (uint end = 0u; end < 2u; ++end) {
+        uint body = end == 0u ? manifold.body_a : manifold.body_b;
+        atomicAnd(body_colours[body_word(body, used_word(colour))], others);
+        body_colours[body_word(body, k_best_rank)] = 0u; // others write the same
+        body_colours[body_word(body, k_best_rank + 1u)] = 0u;
+    }
+    uncoloured[entry] = pair;
+}
+
+// After all rounds: how many colours what has got one needs.
+void note_colours(uint first, uint stride, uint entry_count)
+{
+    uint most = 0u;
+    for (uint entry = first; entry < entry_count; entry += stride) {
+        if (!has_got_one(entry)) continue;
+        uint colour = manifold_keys[uncoloured[entry] & ~k_has_got];
+        if (colour < k_first_hub_colour) most = max(most, colours_down_to(colour));
+    }
+    if (most > counters[k_counter_colour_demand]) atomicMax(counters[k_counter_colour_demand], most);
 }
 
 void main()
@@ -279,6 +310,15 @@ void main()
     }
     wait_for_workers();
     colour_in_rounds(first, stride, entry_count);
+    again = colours_again(entry_count, counters[k_counter_manifold_count]);
+    for (uint times = 0u; again && times < k_times_again; ++times) {
+        for (uint entry = first; entry < entry_count; entry += stride)
+            begin_again(entry);
+        entry_in_hand = k_none;
+        wait_for_workers();
+        colour_in_rounds(first, stride, entry_count);
+    }
+    note_colours(first, stride, entry_count);
     for (uint i = first; i < counters[k_counter_hub_count]; i += stride) {
         uint shares = shares_of_hub(body_colours[body_word(hubs[i], k_new_edges)],
                                     body_colours[body_word(hubs[i], k_hub_word)]);

@@ -79,7 +79,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
                 part_of_load(state, edge.pair, uintBitsToFloat(state.manifold_keys[edge.pair]), hub);
     }
 
-    for (const Edge& edge : edges) {
+    const auto give_colour = [&](const Edge& edge) {
         const Manifold& manifold = state.manifolds[edge.pair];
         const std::array bodies{manifold.body_a, manifold.body_b};
         const bool both_movable = std::ranges::all_of(bodies, movable);
@@ -109,10 +109,29 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         if (!is_shared && hub_count == 1) word_of(hub, k_unshared_load) += part;
         if (colour == k_overflow_colour)
             ++state.counters[k_counter_overflow_count];
-        else if (colour < k_first_hub_colour)
-            colour_demand = max(colour_demand, colours_down_to(colour));
-        else
+        else if (is_shared)
             ++state.counters[k_counter_hub_manifolds];
+    };
+    std::ranges::for_each(edges, give_colour);
+
+    const bool again = colours_again(state.counters[k_counter_uncoloured], state.counters[k_counter_manifold_count]);
+    for (uint times = 0; again && times < k_times_again; ++times) {
+        std::vector<Edge> classes;
+        for (const Edge& edge : edges) {
+            const Manifold& manifold = state.manifolds[edge.pair];
+            const uint colour = state.manifold_keys[edge.pair];
+            if (colour >= k_first_hub_colour || hub_count_of(manifold) > 0) continue;
+            const bool both_movable = movable(manifold.body_a) && movable(manifold.body_b);
+            classes.push_back({class_rank(colour, both_movable), edge.pair});
+            for (const uint body : {manifold.body_a, manifold.body_b})
+                word_of(body, used_word(colour)) &= ~used_bit(colour);
+        }
+        std::ranges::stable_sort(classes, std::greater{}, &Edge::rank);
+        std::ranges::for_each(classes, give_colour);
+    }
+    for (const Edge& edge : edges) {
+        const uint colour = state.manifold_keys[edge.pair];
+        if (colour < k_first_hub_colour) colour_demand = max(colour_demand, colours_down_to(colour));
     }
 }
 

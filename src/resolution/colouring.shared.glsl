@@ -71,8 +71,24 @@ inline bool is_far_down(uint colour) { return colours_down_to(colour) > k_many_c
 
 inline bool gives_up(uint colour, uint edges_a, uint edges_b) { return colours_down_to(colour) > max(edges_a, edges_b) + 1u; }
 
-// In the list of what has no colour, beside a pair: it has kept one that is far down.
+// In the list of what has no colour, beside a pair: it has kept one that is far down, or has got one.
 const uint k_has_kept = 0x80000000u;
+const uint k_has_got = 0x40000000u;
+
+// Where most edges are new, as those of a structure that has been set up standing, all new ones are coloured again class by class:
+// J. Culberson, "Iterated Greedy Graph Coloring and the Difficulty Landscape", 1992. Edges of one colour do not meet, so a class
+// has one rank, and no edge gets a colour further down than its class has a place. The last colours come first, which are of few
+// edges. What was lent the ground's colour comes before them, as it may have to do without.
+const uint k_times_again = 2u;
+
+inline bool colours_again(uint new_edges, uint edges) { return 2u * new_edges >= edges; }
+
+// Of an edge that had this colour.
+inline uint class_rank(uint colour, bool both_movable)
+{
+    if (!both_movable) return k_on_ground + colours_down_to(colour);
+    return colour == k_ground_colour ? k_max_colours : colours_down_to(colour);
+}
 
 // Whether the solver treats a manifold: the bodies touch, or are about to, and neither is a sensor.
 inline bool is_active(Manifold manifold)
