@@ -10,7 +10,12 @@
 namespace talus::cli {
 namespace {
 
-constexpr std::uint32_t k_gpu_samples = 50;
+constexpr std::uint32_t k_fewest_samples = 50, k_most_samples = 250;
+
+/// Of a GPU: at most a tenth of the steps where that is enough for a median.
+std::uint32_t interval_of_samples(std::uint32_t steps) {
+    return std::max(1u, steps / std::clamp(steps / 10, k_fewest_samples, k_most_samples));
+}
 
 double milliseconds(std::chrono::steady_clock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
@@ -33,7 +38,7 @@ Statistics statistics_of(std::vector<double> samples) {
 TimedRun::TimedRun(scenes::Scene scene, const Settings& settings, const WorldOptions& options, std::uint32_t steps)
     : source(std::move(scene)), simulated(settings, options), planned_steps(steps), profile(options.profile) {
     const bool runs_ahead = simulated.device().kind == DeviceKind::Gpu;
-    sample_interval = runs_ahead ? std::max(1u, steps / k_gpu_samples) : 1u;
+    sample_interval = runs_ahead ? interval_of_samples(steps) : 1u;
 
     std::vector<BodyDefinition> definitions;
     definitions.reserve(source.bodies.size());
