@@ -154,6 +154,7 @@ Simulation::Simulation(const WorldOptions& options) {
     grow_everywhere(BufferId::HubChanges, 1);
     grow_everywhere(BufferId::Arrivals, k_arrival_words);
     grow_everywhere(BufferId::Rests, 1);
+    grow_everywhere(BufferId::ColourOffsets, k_colour_offsets);
     grow_everywhere(BufferId::Strays, k_most_strays);
     grow_everywhere(BufferId::KnownPairs, k_most_stray_pairs);
     grow_everywhere(BufferId::NearPairs, k_most_stray_pairs);

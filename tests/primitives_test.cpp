@@ -244,19 +244,6 @@ TEST_P(Primitives, sort_takes_its_groups_from_a_dispatch) {
     }
 }
 
-TEST_P(Primitives, key_offsets_tell_where_each_key_starts) {
-    for (const uint count : k_sizes) {
-        SCOPED_TRACE(count);
-        const Words keys = random_words(count, 200, count);
-        const Words sorted = sort(*device, keys, count, 8).keys;
-        find_key_offsets(*device, BufferId::SortKeys, BufferId::ColourOffsets, k_count);
-        Words expected(k_digits + 1);
-        for (uint key = 0; key <= k_digits; ++key)
-            expected[key] = static_cast<uint>(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin());
-        ASSERT_EQ(download(*device, BufferId::ColourOffsets, k_digits + 1), expected);
-    }
-}
-
 TEST_P(Primitives, any_words_are_scanned) {
     ASSERT_TRUE(rc::check([this](const Words& values) {
         const uint count = static_cast<uint>(values.size());

@@ -14,7 +14,6 @@ extern const Kernel scan_tiles;
 extern const Kernel count_digits;
 extern const Kernel scatter_keys;
 extern const Kernel sort_in_group;
-extern const Kernel search_keys;
 extern const Kernel scatter_records;
 
 /// Tiles that make a loop of a twin worth a second thread.

@@ -100,14 +100,6 @@ void sort_by_key(Device& device, const Sort& sort) {
                 .bindings = {{"Keys", sort.keys}, {"Values", sort.values}}});
 }
 
-void find_key_offsets(Device& device, BufferId keys, BufferId offsets, uint count_counter) {
-    reserve_words(device, offsets, k_digits + 1);
-    device.run({.kernel = search_keys,
-                .items = k_digits + 1,
-                .args = {count_counter},
-                .bindings = {{"Keys", keys}, {"Offsets", offsets}}});
-}
-
 void scatter_changed_records(Device& device, BufferId target, uint count) {
     const uint cells = static_cast<uint>(k_buffers[static_cast<std::size_t>(target)].stride / k_cell_bytes);
     device.run(

@@ -38,10 +38,6 @@ void begin_sort(Device&, const Sort&);
 /// change places with the two scratch buffers (Device::swap).
 void sort_by_key(Device&, const Sort&);
 
-/// Of sorted keys of at most 8 bits: writes to `offsets` the number of keys below each of 0 to 255, and the number of
-/// all as word 256.
-void find_key_offsets(Device&, BufferId keys, BufferId offsets, uint count_counter);
-
 /// Puts the first `count` records of Changes (see the kernel scatter_records) to their places in a buffer of records,
 /// or nothing after a step that did not fit.
 void scatter_changed_records(Device&, BufferId target, uint count);

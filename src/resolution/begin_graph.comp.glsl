@@ -33,7 +33,6 @@ void plan_launches(bool due)
     uint pair_count = due ? counters[k_counter_pair_count] : 0u;
     counters[k_counter_graph_bodies] = due ? parameters.body_count : 0u;
     counters[k_counter_graph_pairs] = pair_count;
-    if (due) counters[k_counter_sorted_pairs] = pair_count;
     dispatches[k_dispatch_graph_pairs] = groups_for(pair_count, k_group_size);
     dispatches[k_dispatch_graph_tiles] = groups_for(pair_count, k_sort_tile);
 }

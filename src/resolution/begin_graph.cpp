@@ -12,7 +12,6 @@ static void plan_launches(CpuState& state, bool due) {
     const uint pair_count = due ? state.counters[k_counter_pair_count] : 0;
     state.counters[k_counter_graph_bodies] = due ? state.parameters.body_count : 0;
     state.counters[k_counter_graph_pairs] = pair_count;
-    if (due) state.counters[k_counter_sorted_pairs] = pair_count;
     state.dispatches[k_dispatch_graph_pairs] = groups_for(pair_count, k_group_size);
     state.dispatches[k_dispatch_graph_tiles] = groups_for(pair_count, k_sort_tile);
 }

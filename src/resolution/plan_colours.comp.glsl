@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One group, an invocation for each colour: whether the colours and the sub-steps fit, and the launches of the
+// One group, an invocation for each colour: where it begins, whether the colours and the sub-steps fit, and the launches of the
 // resolution. args.x: 1 where what is launched has been counted apart. args.y: 0 where a work group solves each island, so
 // that colours and sub-steps need no launches; hubs cannot be solved there. args.z: 1 where the graph has not been made, as
 // it should be the last step's.
-// Reads: ColourOffsets, Counters.
-// Writes: Counters, Dispatches, Arrivals.
+// Reads: ManifoldKeys, Counters.
+// Writes: ColourOffsets, where the graph is a new one; Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.
 // Overflow: more colours or sub-steps than the host has launches for, and more manifolds, or manifolds of hubs, than it
 // has room for, are said in k_counter_did_not_fit, and so is a graph that should have been made. Where that is set, by
@@ -14,10 +14,36 @@
 
 layout(local_size_x = 64) in; // k_max_colours
 
-layout(std430) readonly buffer ColourOffsets { uint colour_offsets[]; };
+layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
+layout(std430) buffer ColourOffsets { uint colour_offsets[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
+
+shared uint offsets[k_colour_offsets];
+
+// The first manifold of a colour or a later one, of those that no work group solves.
+uint first_of(uint colour)
+{
+    uint first = 0u;
+    uint end = counters[k_counter_graph_pairs];
+    while (first < end) {
+        uint middle = first + (end - first) / 2u;
+        if (manifold_keys[middle] < colour)
+            first = middle + 1u;
+        else
+            end = middle;
+    }
+    return first;
+}
+
+void find_offsets(bool is_new)
+{
+    for (uint colour = gl_LocalInvocationID.x; colour < k_colour_offsets; colour += gl_WorkGroupSize.x) {
+        offsets[colour] = is_new ? first_of(colour) : colour_offsets[colour];
+        if (is_new) colour_offsets[colour] = offsets[colour];
+    }
+}
 
 void main()
 {
@@ -31,6 +57,7 @@ void main()
     bool has_unweighed_hubs = counters[k_counter_hub_count] > 0u && parameters.hub_capacity == 0u;
     uint made_for = counters[k_counter_graph_due];
     bool due = (made_for != 0u && made_for != k_due_for_hubs) || has_unweighed_hubs;
+    if (launches) find_offsets(args.z == 0u && made_for != 0u);
     if (args.z == 1u && due) did_not_fit |= k_fit_graph;
     if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;
@@ -40,9 +67,9 @@ void main()
     if (counters[k_counter_hub_manifolds] > (launches ? parameters.hub_capacity : 0u)) did_not_fit |= k_fit_hubs;
 
     uint on = did_not_fit == 0u ? 1u : 0u;
-    uint count = launches ? colour_offsets[colour + 1u] - colour_offsets[colour] : 0u;
-    dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     barrier(); // all have read the counters
+    uint count = launches ? offsets[colour + 1u] - offsets[colour] : 0u;
+    dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     if (colour != 0u) return;
     uint group_count = launches ? count_groups(parameters.body_count) : parameters.body_count;
     dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);
@@ -57,7 +84,7 @@ void main()
     counters[k_counter_launched_colours] = colours;
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;
-    counters[k_counter_launched_manifolds] = launches ? colour_offsets[k_overflow_colour + 1u] - colour_offsets[0] : 0u;
+    counters[k_counter_launched_manifolds] = launches ? offsets[k_overflow_colour + 1u] - offsets[0] : 0u;
     arrivals[0] = 0u; // of solve_persistent
     counters[k_counter_graph_was_due] = due ? 1u : 0u;
     bool is_next_due = on == 0u || made_for == k_due_twice;

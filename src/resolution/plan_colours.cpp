@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of plan_colours.comp.glsl.
+#include <algorithm>
+
 #include "device/cpu/cpu_state.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
+
+/// Where each colour begins, of the manifolds that no work group solves.
+static void find_offsets(CpuState& state) {
+    const uint *keys = state.manifold_keys.data, *end = keys + state.counters[k_counter_graph_pairs];
+    for (uint colour = 0; colour < k_colour_offsets; ++colour)
+        state.colour_offsets[colour] = static_cast<uint>(std::lower_bound(keys, end, colour) - keys);
+}
 
 static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     const bool measured = launch.args[0] == 1, launches = launch.args[1] == 1;
@@ -15,6 +24,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     const bool has_unweighed_hubs = counters[k_counter_hub_count] > 0 && p.hub_capacity == 0;
     const uint made_for = counters[k_counter_graph_due];
     const bool due = (made_for != 0 && made_for != k_due_for_hubs) || has_unweighed_hubs;
+    if (launches && launch.args[2] == 0 && made_for != 0) find_offsets(state);
     if (launch.args[2] == 1 && due) did_not_fit |= k_fit_graph;
     const uint colours = counters[measured ? k_counter_launched_colours : k_counter_colour_demand];
     const uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];

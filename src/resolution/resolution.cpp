@@ -63,8 +63,6 @@ static void make_graph(Device& device, const StepPlan& plan) {
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
     if (measures_islands) find_island_groups(device, plan);
     sort_by_key(device, order);
-    if (plan.needs_launches())
-        find_key_offsets(device, BufferId::ManifoldKeys, BufferId::ColourOffsets, k_counter_sorted_pairs);
 }
 
 void constraint_graph(Device& device, const StepPlan& plan) {

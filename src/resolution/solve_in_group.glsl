@@ -19,7 +19,7 @@ shared float angular[3u * (k_room + 1u)];
 shared uint most_substeps;
 shared uint search_bounds[2];
 // Where the group's manifolds of each colour begin; the overflow set last.
-shared uint colour_offsets[k_max_colours + 2u];
+shared uint colour_offsets[k_colour_offsets];
 
 BodyVelocity load_velocity(uint slot)
 {
@@ -119,7 +119,7 @@ void find_colours(uint group)
     uint first = search_bounds[0];
     uint end = search_bounds[1];
     uint me = gl_LocalInvocationID.x;
-    for (uint colour = me; colour < k_max_colours + 2u; colour += gl_WorkGroupSize.x)
+    for (uint colour = me; colour < k_colour_offsets; colour += gl_WorkGroupSize.x)
         colour_offsets[colour] = colour == 0u ? first : end;
     barrier();
     // A manifold whose key is another one than that before it begins its colour, and those in between.

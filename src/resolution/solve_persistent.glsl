@@ -34,7 +34,7 @@ layout(std430) coherent buffer HubChanges { HubChange hub_changes[]; };
 layout(std430) coherent volatile buffer Velocities { BodyVelocityCells velocities[]; };
 
 // As in ColourOffsets: a load for each colour that is not in use took as long as the passes did, where there are hubs.
-shared uint colour_offsets[k_max_colours + 2u];
+shared uint colour_offsets[k_colour_offsets];
 
 uint slot_of(uint body) { return body; }
 
@@ -143,7 +143,7 @@ void main()
         return;
     }
     if (counters[k_counter_did_not_fit] != 0u) return;
-    for (uint i = gl_LocalInvocationID.x; i < k_max_colours + 2u; i += gl_WorkGroupSize.x)
+    for (uint i = gl_LocalInvocationID.x; i < k_colour_offsets; i += gl_WorkGroupSize.x)
         colour_offsets[i] = stored_offsets[i];
     barrier();
     solve_substeps(max(counters[k_counter_launched_substeps], parameters.least_substeps));

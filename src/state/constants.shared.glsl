@@ -53,6 +53,7 @@ const uint k_max_colours = 64u;
 const uint k_ground_colour = 61u; // for contacts with the ground: bodies that cannot be pushed
 const uint k_first_hub_colour = 62u;
 const uint k_overflow_colour = 64u;
+const uint k_colour_offsets = k_overflow_colour + 2u; // where each of these begins, and the end
 const uint k_inactive_colour = 127u;
 const uint k_colour_bits = 7u; // of a manifold's key: the colour in the low bits, the island above
 const uint k_no_colour = 0xffu; // not coloured yet
@@ -96,14 +97,13 @@ const uint k_counter_multirate_islands = 30u; // that launches solve
 // What the constraint graph is made of: all, or 0 where it is the last step's.
 const uint k_counter_graph_bodies = 31u; // body slots
 const uint k_counter_graph_pairs = 32u;
-const uint k_counter_sorted_pairs = 33u; // that the last graph was made of
 // The search for the pairs of a few bodies.
-const uint k_counter_stray_count = 34u; // bodies that have left their boxes, until it is known that they are too many
-const uint k_counter_known_pairs = 35u; // of strays, in the list already
-const uint k_counter_near_pairs = 36u;  // of strays, that are near now
-const uint k_counter_added_pairs = 37u; // since the last search of all
-const uint k_counter_strayed = 38u;     // 1 where this step had to search, a few bodies or all
-const uint k_counter_words = 39u;
+const uint k_counter_stray_count = 33u; // bodies that have left their boxes, until it is known that they are too many
+const uint k_counter_known_pairs = 34u; // of strays, in the list already
+const uint k_counter_near_pairs = 35u;  // of strays, that are near now
+const uint k_counter_added_pairs = 36u; // since the last search of all
+const uint k_counter_strayed = 37u;     // 1 where this step had to search, a few bodies or all
+const uint k_counter_words = 38u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;

@@ -232,6 +232,8 @@ void GlDevice::begin_stage(Stage stage) {
     context_->activity = k_stage_names[static_cast<std::size_t>(stage)];
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, context_->activity);
     in_stage_ = true;
+    // The driver collects launches. What detects contacts begins while the rest of the step is being enqueued.
+    if (stage == Stage::ConstraintGraph) glFlush();
     objects_->steps.begin_stage(stage);
 }
 
