@@ -12,10 +12,12 @@
 
 namespace talus::engine {
 
-// Islands have the numbers of their body slots, and one more stands for pairs that do not touch.
+// Of the largest key, that of pairs that do not touch. Islands have the numbers of their body slots.
 static uint manifold_key_bits(const StepPlan& plan) {
-    if (plan.small ? !plan.in_groups : !plan.measures_islands()) return k_colour_bits;
-    return k_colour_bits + std::bit_width(plan.small ? k_island_bodies : count_groups(plan.body_count) + 1);
+    uint largest = k_inactive_colour;
+    if (plan.small && plan.in_groups) largest = manifold_key(k_island_bodies, k_inactive_colour);
+    if (plan.measures_islands()) largest = inactive_key(plan.body_count);
+    return std::bit_width(largest);
 }
 
 /// Launches a kernel whose items are manifolds in the order of colours, for some pairs after the others: for those with

@@ -55,7 +55,7 @@ const uint k_first_hub_colour = 62u;
 const uint k_overflow_colour = 64u;
 const uint k_colour_offsets = k_overflow_colour + 2u; // where each of these begins, and the end
 const uint k_inactive_colour = 127u;
-const uint k_colour_bits = 7u; // of a manifold's key: the colour in the low bits, the island above
+const uint k_colours_of_key = k_overflow_colour + 1u; // of what is solved; a manifold's key counts them, and the islands above
 const uint k_no_colour = 0xffu; // not coloured yet
 const uint k_whole_hub = 0x80u; // Manifold::colour has it added where the manifold met a hub with its whole mass
 
