@@ -21,7 +21,7 @@ struct Population {
 };
 
 /// What the search for pairs looks for: those of a few bodies that have left their boxes, or all.
-enum class Search : uint { None, Strays, All };
+enum class Search : uint { None = k_search_none, Strays = k_search_strays, All = k_search_all };
 
 /// Of so many groups that a GPU can run at a time, the persistent launch leaves out one for other launches.
 inline constexpr uint k_groups_a_spare = 64;

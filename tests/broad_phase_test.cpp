@@ -496,6 +496,28 @@ TEST_P(BroadPhases, a_stray_with_very_many_pairs_is_a_search_for_all) {
     EXPECT_EQ(searched, strayed);
 }
 
+TEST_P(BroadPhases, the_list_of_pairs_is_the_same_in_however_much_room) {
+    Settings settings = with_tree();
+    settings.solve_order = SolveOrder::Sequential; // in the order of the list
+    settings.substeps = settings.max_substeps = 1; // renderers in software end long loops
+    std::vector<BodyDefinition> bodies = floor_with_sliders(24, 1.0f);
+    for (std::size_t i = 3; i < bodies.size(); i += 5)
+        bodies[i].pose.position.y += 0.02f * static_cast<float>(i); // they fall, and roll over the others
+    WorldOptions roomy = options_on(GetParam()), tight = roomy;
+    roomy.capacities.pairs = 4096;
+    tight.capacities.pairs = 64;
+    World with_room(settings, roomy), without(settings, tight);
+    for (World* world : {&with_room, &without})
+        world->add(bodies);
+    for (int i = 0; i < 90; ++i) {
+        with_room.step();
+        without.step();
+        ASSERT_EQ(without.state_hash(), with_room.state_hash()) << "step " << i;
+        ASSERT_EQ(without.report().pairs, with_room.report().pairs) << "step " << i;
+    }
+    EXPECT_GT(without.report().growths, with_room.report().growths);
+}
+
 TEST_P(BroadPhases, a_world_goes_on_from_a_snapshot_with_pairs_that_were_added) {
     World world = make_world(with_tree()), other = make_world(with_tree());
     world.add(floor_with_sliders(6));

@@ -3,6 +3,7 @@
 // every device, they are kept from step to step, and bodies with more contacts than there are colours are solved all
 // the same: as hubs, or in the overflow set. A graph that lasts over several steps is the one that each would make.
 #include <map>
+#include <random>
 #include <set>
 #include <tuple>
 
@@ -491,6 +492,43 @@ TEST_P(Graphs, last_where_others_ask_for_more_sub_steps) {
     } else {
         EXPECT_GT(lasted, 50) << "35 where any contact that asks for another number has the graph made";
     }
+}
+
+// The second world's first graph is the other one's second.
+TEST_P(Graphs, of_crowded_bodies_give_the_same_colours_again) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        std::mt19937 random(seed);
+        const auto number = [&](float lower, float upper) {
+            return std::uniform_real_distribution<float>(lower, upper)(random);
+        };
+        std::vector<BodyDefinition> bodies{ground()};
+        for (int i = 0; i < 324; ++i) {
+            const float edge = number(0.5f, 1.2f);
+            const Vec3 position{number(-2.4f, 2.4f), number(0.5f, 4.8f), number(-2.4f, 2.4f)};
+            bodies.push_back(i % 2 == 0 ? sphere_at(position, 0.5f * edge) : box_at(position, {edge, edge, edge}));
+        }
+        Settings settings = weightless();
+        settings.contact_push_speed = 1e-4f;
+        settings.substeps = settings.max_substeps = 1; // renderers in software end long loops
+        World world = make_world(settings), other = make_world(settings);
+        world.add(bodies);
+        world.step();
+        EXPECT_GT(world.report().colours, engine::k_many_colours);
+        other.restore(world.snapshot());
+        for (int i = 0; i < 4; ++i) {
+            world.step();
+            other.step();
+            ASSERT_EQ(other.state_hash(), world.state_hash()) << "seed " << seed << ", step " << i;
+        }
+    }
+}
+
+// Walls and pyramids have a colour less by that.
+TEST_P(Graphs, of_what_is_set_up_standing_are_coloured_again) {
+    World world = make_world();
+    world.add(bodies_of("pyramid:base=20"));
+    world.step();
+    EXPECT_EQ(world.report().colours, 7u); // 8 by rank alone; a box touches six
 }
 
 TALUS_ON_EVERY_DEVICE(Graphs);

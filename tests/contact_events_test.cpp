@@ -356,6 +356,34 @@ TEST_P(ContactEvents, of_a_body_change_as_it_becomes_a_sensor) {
     EXPECT_NEAR(world.pose(box).position.y, 0.5f, 2e-3f);
 }
 
+TEST_P(ContactEvents, of_a_world_that_is_emptied_end_once) {
+    World world = make_world(), other = make_world();
+    const auto fill = [](World& each) {
+        for (const BodyDefinition& body : {ground(), box_at({0.0f, 0.5f, 0.0f}), box_at({0.0f, 1.5f, 0.0f})})
+            each.add(body);
+    };
+    fill(world);
+    world.watch_contacts(ContactWatch::Changes);
+    world.step(20);
+    EXPECT_EQ(world.take_contact_events().size(), 2u);
+    for (const BodyId id : world.bodies())
+        world.remove(id);
+    std::size_t ends = 0;
+    for (int i = 0; i < 5; ++i) {
+        world.step();
+        ends += world.take_contact_events().size();
+    }
+    EXPECT_EQ(ends, 2u);
+    // What was there before has left nothing to those that take its place.
+    fill(world);
+    fill(other);
+    for (int i = 0; i < 5; ++i) {
+        world.step();
+        other.step();
+        ASSERT_EQ(world.state_hash(), other.state_hash()) << i;
+    }
+}
+
 TALUS_ON_EVERY_DEVICE(ContactEvents);
 
 } // namespace

@@ -4,7 +4,8 @@
 // Reads: Poses, Velocities, Shapes, Strays, KnownPairs, NearPairs.
 // Writes: Pairs, OrientedBoxes, Aabbs, Counters.
 // Needs: a barrier after search_strays.
-// Overflow: the list's count is the demand; pairs beyond the capacity are not written.
+// Overflow: where there is no room for all, the list and the boxes stay as they are, and the step does not fit. So a list is the
+// same in however much room.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
@@ -40,7 +41,7 @@ void add(Pair pair, uint list_count)
     uint place = list_count;
     for (uint i = 0u; i < new_count; ++i)
         if (comes_before(new_pairs[i], pair)) place += 1u;
-    if (place < parameters.pair_capacity) pairs[place] = pair;
+    pairs[place] = pair;
 }
 
 void main()
@@ -54,6 +55,12 @@ void main()
     for (uint i = me; i < counters[k_counter_near_pairs]; i += gl_WorkGroupSize.x)
         keep_if_new(near_pairs[i], counters[k_counter_known_pairs]);
     barrier();
+    if (list_count + new_count > parameters.pair_capacity) {
+        if (me != 0u) return;
+        counters[k_counter_wanted_pairs] = list_count + new_count;
+        counters[k_counter_did_not_fit] |= k_fit_pairs;
+        return;
+    }
     for (uint i = me; i < new_count; i += gl_WorkGroupSize.x)
         add(new_pairs[i], list_count);
     if (me < stray_count) {

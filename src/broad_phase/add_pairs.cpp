@@ -2,6 +2,7 @@
 // CPU twin of add_pairs.comp.glsl.
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "broad_phase/box_now.h"
 #include "broad_phase/broad_phase.h"
@@ -14,13 +15,20 @@ static void add_pairs_on_cpu(CpuState& state, const Launch&) {
     if (strays.empty() || counters[k_counter_search_count] != 0) return;
     const std::span known(state.known_pairs.data, counters[k_counter_known_pairs]);
     const std::span pairs_near(state.near_pairs.data, counters[k_counter_near_pairs]);
-    std::ranges::sort(pairs_near, comes_before);
-    for (const Pair& pair : pairs_near) {
-        if (std::ranges::any_of(known, [&](const Pair& other) { return is_same_pair(other, pair); })) continue;
-        const uint place = counters[k_counter_pair_demand]++;
-        ++counters[k_counter_added_pairs];
-        if (place < state.parameters.pair_capacity) state.pairs[place] = pair;
+    std::vector<Pair> added;
+    for (const Pair& pair : pairs_near)
+        if (std::ranges::none_of(known, [&](const Pair& other) { return is_same_pair(other, pair); }))
+            added.push_back(pair);
+    std::ranges::sort(added, comes_before);
+    const uint list_count = counters[k_counter_pair_demand], new_count = static_cast<uint>(added.size());
+    if (list_count + new_count > state.parameters.pair_capacity) {
+        counters[k_counter_wanted_pairs] = list_count + new_count;
+        counters[k_counter_did_not_fit] |= k_fit_pairs;
+        return;
     }
+    std::ranges::copy(added, &state.pairs[list_count]);
+    counters[k_counter_pair_demand] += new_count;
+    counters[k_counter_added_pairs] += new_count;
     for (const uint stray : strays) {
         state.oriented_boxes[stray] = with_skin(box_now(state, stray));
         state.aabbs[stray] = compute_aabb(state.oriented_boxes[stray]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation: how many pairs there are, whether they fit, and the launches that treat them.
-// args.x: which search had launches: 0 none, 1 of strays, 2 of all. args.y: 1 where the constraint graph has them. args.z: 1 where the host knows that it
-// is not the last step's. args.w: 1 where the last step's pairs are looked up in any case.
+// args.x: k_search_*, what had launches. args.y: 1 where the constraint graph has them. args.z: 1 where the host knows that it is
+// not the last step's. args.w: 1 where the last step's pairs are looked up in any case.
 // Reads: Counters.
 // Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the scan of the pair counts.
@@ -18,11 +18,13 @@ layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
 
 void take_pairs(bool due)
 {
+    counters[k_counter_wanted_pairs] = 0u;
     if (parameters.body_count == 0u) { // nothing has looked at the bodies
         counters[k_counter_pair_demand] = 0u;
+        counters[k_counter_added_pairs] = 0u;
         counters[k_counter_pairs_changed] = 0u;
     }
-    if (args.x == 2u) {
+    if (args.x == k_search_all) {
         if (due) {
             counters[k_counter_pair_demand] = counters[k_counter_found_pairs];
             counters[k_counter_added_pairs] = 0u;
@@ -32,7 +34,8 @@ void take_pairs(bool due)
     } else if (due || counters[k_counter_pairs_changed] != 0u) {
         counters[k_counter_did_not_fit] |= k_fit_all;
     }
-    if (args.x == 0u && counters[k_counter_stray_count] > 0u) counters[k_counter_did_not_fit] |= k_fit_strays;
+    if (args.x == k_search_none && (due || counters[k_counter_stray_count] > 0u))
+        counters[k_counter_did_not_fit] |= k_fit_strays;
     if (counters[k_counter_pair_demand] > parameters.pair_capacity) {
         counters[k_counter_did_not_fit] |= k_fit_pairs;
         counters[k_counter_searched_slots] = k_none; // not all were written

@@ -10,8 +10,10 @@ namespace talus::engine {
 static void take_pairs(CpuState& state, bool due, Search launched) {
     const Array<uint>& counters = state.counters;
     const Parameters& p = state.parameters;
+    counters[k_counter_wanted_pairs] = 0;
     if (p.body_count == 0) { // nothing has looked at the bodies
         counters[k_counter_pair_demand] = 0;
+        counters[k_counter_added_pairs] = 0;
         counters[k_counter_pairs_changed] = 0;
     }
     if (launched == Search::All) {
@@ -24,7 +26,7 @@ static void take_pairs(CpuState& state, bool due, Search launched) {
     } else if (due || counters[k_counter_pairs_changed] != 0) {
         counters[k_counter_did_not_fit] |= k_fit_all;
     }
-    if (launched == Search::None && counters[k_counter_stray_count] > 0)
+    if (launched == Search::None && (due || counters[k_counter_stray_count] > 0))
         counters[k_counter_did_not_fit] |= k_fit_strays;
     if (counters[k_counter_pair_demand] > p.pair_capacity) {
         counters[k_counter_did_not_fit] |= k_fit_pairs;

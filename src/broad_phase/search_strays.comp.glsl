@@ -9,7 +9,7 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
 
-layout(local_size_x = 64) in; // k_most_strays
+layout(local_size_x = 64) in; // at least k_most_strays
 
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };

@@ -8,6 +8,8 @@
 
 namespace talus::engine {
 
+static_assert(k_most_strays <= k_group_size, "an invocation of a group for each stray");
+
 static void search_strays_on_cpu(CpuState& state, const Launch&) {
     Array<uint>& counters = state.counters;
     if (counters[k_counter_search_count] != 0) return;

@@ -24,11 +24,11 @@ layout(std430) buffer Counters { uint counters[]; };
 void main()
 {
     uint body = item_index();
-    if (body >= parameters.body_count) return;
     if (body == 0u) {
         counters[k_counter_old_pair_count] = counters[k_counter_pair_count];
         counters[k_counter_pairs_changed] = 0u;
     }
+    if (body >= parameters.body_count) return;
     BodyPose pose = unpack(poses[body]);
     if (is_asleep(pose)) return;
     bool moves = is_mover(unpack(shapes[body]));

@@ -29,8 +29,10 @@ struct Sort {
     uint slot = k_none;
 };
 
-/// Before keys are written that may turn out to be none: the sort will leave its result where the last one's is, and
-/// with no keys at all the last one's stays. Writing them leaves it alone unless the sort is certain.
+/// Call it before the kernels that write the keys, where these may turn out to be none and the last result is to stay
+/// then: the sorted keys will be where those of the last such sort are. With an odd number of passes buffers change
+/// places here and in sort_by_key(), so what is to be sorted does not lie there; with an even number it does, and is
+/// written only where there is any.
 void begin_sort(Device&, const Sort&);
 
 /// Sorts by key, lowest first; equal keys keep their order. A capacity of up to k_sort_in_group_keys (2,048) takes a

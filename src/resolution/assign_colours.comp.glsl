@@ -3,7 +3,7 @@
 // first colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count as bodies for most
 // of their manifolds, and the loads on them. As many groups as have manifolds wait for each other after each part of a
 // round; it is one where little is new. What has kept a colour far down is looked at first, and gives it up where it may find a
-// better one. Where most is new, it is coloured again.
+// better one. Where all is new, it is coloured again.
 // args.x: 1 to count how many groups can run at a time instead.
 // Reads: Manifolds, Shapes.
 // Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours, Uncoloured and Arrivals
@@ -260,7 +260,7 @@ void begin_again(uint entry)
     uint pair = uncoloured[entry] & ~k_has_got;
     uint colour = manifold_keys[pair];
     Manifold manifold = manifolds[pair];
-    if (colour >= k_first_hub_colour || is_found_hub(manifold.body_a) || is_found_hub(manifold.body_b)) return;
+    if (colour >= k_first_hub_colour) return; // in the overflow set
     uint others = ~used_bit(colour);
     for (uint end = 0u; end < 2u; ++end) {
         uint body = end == 0u ? manifold.body_a : manifold.body_b;
@@ -281,6 +281,21 @@ void note_colours(uint first, uint stride, uint entry_count)
         if (colour < k_first_hub_colour) most = max(most, colours_down_to(colour));
     }
     if (most > counters[k_counter_colour_demand]) atomicMax(counters[k_counter_colour_demand], most);
+}
+
+void colour_again(uint first, uint stride, uint entry_count)
+{
+    wait_for_workers();
+    again = counters[k_counter_colour_demand] <= k_few_colours;
+    for (uint times = 0u; again && times < k_times_again; ++times) {
+        for (uint entry = first; entry < entry_count; entry += stride)
+            begin_again(entry);
+        entry_in_hand = k_none;
+        wait_for_workers();
+        if (first == 0u) counters[k_counter_colour_demand] = 0u; // all have read it
+        colour_in_rounds(first, stride, entry_count);
+    }
+    if (again) note_colours(first, stride, entry_count);
 }
 
 void main()
@@ -308,17 +323,11 @@ void main()
         else if (has_hubs && uncoloured[entry] != k_none)
             add_load(uncoloured[entry]);
     }
+    bool all_new = counters[k_counter_colour_demand] == 0u && !has_hubs;
     wait_for_workers();
     colour_in_rounds(first, stride, entry_count);
-    again = colours_again(entry_count, counters[k_counter_manifold_count]);
-    for (uint times = 0u; again && times < k_times_again; ++times) {
-        for (uint entry = first; entry < entry_count; entry += stride)
-            begin_again(entry);
-        entry_in_hand = k_none;
-        wait_for_workers();
-        colour_in_rounds(first, stride, entry_count);
-    }
     note_colours(first, stride, entry_count);
+    if (all_new) colour_again(first, stride, entry_count);
     for (uint i = first; i < counters[k_counter_hub_count]; i += stride) {
         uint shares = shares_of_hub(body_colours[body_word(hubs[i], k_new_edges)],
                                     body_colours[body_word(hubs[i], k_hub_word)]);

@@ -114,13 +114,22 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
     };
     std::ranges::for_each(edges, give_colour);
 
-    const bool again = colours_again(state.counters[k_counter_uncoloured], state.counters[k_counter_manifold_count]);
+    const auto demand_of_edges = [&] {
+        uint most = 0;
+        for (const Edge& edge : edges) {
+            const uint colour = state.manifold_keys[edge.pair];
+            if (colour < k_first_hub_colour) most = max(most, colours_down_to(colour));
+        }
+        return most;
+    };
+    const bool all_new = colour_demand == 0 && state.counters[k_counter_hub_count] == 0;
+    const bool again = all_new && demand_of_edges() <= k_few_colours;
     for (uint times = 0; again && times < k_times_again; ++times) {
         std::vector<Edge> classes;
         for (const Edge& edge : edges) {
             const Manifold& manifold = state.manifolds[edge.pair];
             const uint colour = state.manifold_keys[edge.pair];
-            if (colour >= k_first_hub_colour || hub_count_of(manifold) > 0) continue;
+            if (colour >= k_first_hub_colour) continue;
             const bool both_movable = movable(manifold.body_a) && movable(manifold.body_b);
             classes.push_back({class_rank(colour, both_movable), edge.pair});
             for (const uint body : {manifold.body_a, manifold.body_b})
@@ -129,10 +138,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         std::ranges::stable_sort(classes, std::greater{}, &Edge::rank);
         std::ranges::for_each(classes, give_colour);
     }
-    for (const Edge& edge : edges) {
-        const uint colour = state.manifold_keys[edge.pair];
-        if (colour < k_first_hub_colour) colour_demand = max(colour_demand, colours_down_to(colour));
-    }
+    colour_demand = max(colour_demand, demand_of_edges());
 }
 
 const Kernel assign_colours{"resolution/assign_colours", assign_colours_on_cpu, 1};

@@ -72,7 +72,7 @@ void main()
     dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     if (colour != 0u) return;
     uint group_count = launches ? count_groups(parameters.body_count) : parameters.body_count;
-    dispatches[k_dispatch_bodies] = groups_for(on * parameters.body_count, k_group_size);
+    dispatches[k_dispatch_bodies] = groups_for(on * max(parameters.body_count, 1u), k_group_size);
     dispatches[k_dispatch_manifolds] = groups_for(on * awake_count, k_group_size);
     dispatches[k_dispatch_islands] = groups_for(on * group_count, 1u);
     dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1u);

@@ -103,7 +103,8 @@ const uint k_counter_known_pairs = 34u; // of strays, in the list already
 const uint k_counter_near_pairs = 35u;  // of strays, that are near now
 const uint k_counter_added_pairs = 36u; // since the last search of all
 const uint k_counter_strayed = 37u;     // 1 where this step had to search, a few bodies or all
-const uint k_counter_words = 38u;
+const uint k_counter_wanted_pairs = 38u; // that the list would have with those of strays, where there is no room for them
+const uint k_counter_words = 39u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -118,6 +119,11 @@ const uint k_fit_graph = 256u; // no room is missing: the step had to make its c
 const uint k_fit_manifolds = 512u; // that are solved
 const uint k_fit_all = 1024u; // no room is missing: the step had to search for all pairs, and had no launches for it
 
+// Which search for pairs has launches.
+const uint k_search_none = 0u;
+const uint k_search_strays = 1u;
+const uint k_search_all = 2u;
+
 // Bodies that are searched for by themselves where they have left their boxes; where there are more, all are.
 const uint k_most_strays = 64u;
 const uint k_most_stray_pairs = 1024u; // of theirs that are in the list, and that are near
@@ -126,14 +132,14 @@ const uint k_share_added = 8u;         // of the pairs; where more have been add
 // In k_counter_graph_due: nor will this step's be the next one's. A body that has become a hub keeps the colours of its old
 // contacts for one step.
 const uint k_due_twice = 2u;
-// Or: it is made where it has launches, as contacts of hubs may get other colours; nothing else says that it needs them.
+// Or: contacts of hubs may get other colours. The graph is made if it has launches for that, but is no reason to give it some.
 const uint k_due_for_hubs = 3u;
 
 // Entries of the Dispatches buffer. Those of the detection come first; the others are empty after a step that did not
 // fit, so that nothing of the state is written.
 const uint k_dispatch_pairs = 0u;      // groups of 64 pairs
 const uint k_dispatch_old_pairs = 1u;  // groups of 64 pairs of the last step, where they have to be looked up by their bodies
-const uint k_dispatch_bodies = 2u;     // groups of 64 bodies
+const uint k_dispatch_bodies = 2u;     // groups of 64 bodies, one where there are none: a step counts pairs all the same
 const uint k_dispatch_manifolds = 3u;  // groups of 64 manifolds
 const uint k_dispatch_islands = 4u;    // a group for each body slot, which may lead an island, or for each group of islands
 const uint k_dispatch_colours = 5u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
