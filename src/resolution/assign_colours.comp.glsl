@@ -283,19 +283,26 @@ void note_colours(uint first, uint stride, uint entry_count)
     if (most > counters[k_counter_colour_demand]) atomicMax(counters[k_counter_colour_demand], most);
 }
 
+void colour_all(bool by_class, uint first, uint stride, uint entry_count)
+{
+    for (uint entry = first; entry < entry_count; entry += stride)
+        begin_again(entry);
+    again = by_class;
+    entry_in_hand = k_none;
+    wait_for_workers();
+    if (first == 0u) counters[k_counter_colour_demand] = 0u; // all have read it
+    colour_in_rounds(first, stride, entry_count);
+    note_colours(first, stride, entry_count);
+}
+
 void colour_again(uint first, uint stride, uint entry_count)
 {
     wait_for_workers();
-    again = counters[k_counter_colour_demand] <= k_few_colours;
-    for (uint times = 0u; again && times < k_times_again; ++times) {
-        for (uint entry = first; entry < entry_count; entry += stride)
-            begin_again(entry);
-        entry_in_hand = k_none;
-        wait_for_workers();
-        if (first == 0u) counters[k_counter_colour_demand] = 0u; // all have read it
-        colour_in_rounds(first, stride, entry_count);
-    }
-    if (again) note_colours(first, stride, entry_count);
+    if (counters[k_counter_colour_demand] > k_many_colours) return;
+    for (uint times = 0u; times < k_times_again; ++times)
+        colour_all(true, first, stride, entry_count);
+    wait_for_workers();
+    if (counters[k_counter_colour_demand] > k_many_colours) colour_all(false, first, stride, entry_count);
 }
 
 void main()

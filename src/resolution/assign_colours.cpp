@@ -122,21 +122,25 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
         }
         return most;
     };
-    const bool all_new = colour_demand == 0 && state.counters[k_counter_hub_count] == 0;
-    const bool again = all_new && demand_of_edges() <= k_few_colours;
-    for (uint times = 0; again && times < k_times_again; ++times) {
-        std::vector<Edge> classes;
+    const auto colour_all = [&](bool by_class) {
+        std::vector<Edge> again;
         for (const Edge& edge : edges) {
             const Manifold& manifold = state.manifolds[edge.pair];
             const uint colour = state.manifold_keys[edge.pair];
             if (colour >= k_first_hub_colour) continue;
             const bool both_movable = movable(manifold.body_a) && movable(manifold.body_b);
-            classes.push_back({class_rank(colour, both_movable), edge.pair});
+            again.push_back({by_class ? class_rank(colour, both_movable) : edge.rank, edge.pair});
             for (const uint body : {manifold.body_a, manifold.body_b})
                 word_of(body, used_word(colour)) &= ~used_bit(colour);
         }
-        std::ranges::stable_sort(classes, std::greater{}, &Edge::rank);
-        std::ranges::for_each(classes, give_colour);
+        std::ranges::stable_sort(again, std::greater{}, &Edge::rank);
+        std::ranges::for_each(again, give_colour);
+    };
+    const bool all_new = colour_demand == 0 && state.counters[k_counter_hub_count] == 0;
+    if (all_new && demand_of_edges() <= k_many_colours) {
+        for (uint times = 0; times < k_times_again; ++times)
+            colour_all(true);
+        if (demand_of_edges() > k_many_colours) colour_all(false);
     }
     colour_demand = max(colour_demand, demand_of_edges());
 }

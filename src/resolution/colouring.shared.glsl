@@ -64,9 +64,9 @@ inline bool is_kept(uint colour, bool both_movable, uint usable)
 // An edge far down, in one of the colours that only a few have needed, gives its colour up where that is further down than
 // either body has edges, the ground's last colour not counted: it was needed by edges that are gone. All that do are coloured again
 // in the order of ranks. A second graph of the same edges gives them the same colours: each finds taken what was taken before, the
-// two beside the ground's colour too, and its own colour free. (That holds as nothing that is coloured again class by class
-// gets a colour far down.)
-const uint k_many_colours = 11u;
+// two beside the ground's colour too, and its own colour free. (That holds as nothing that is coloured class by class
+// keeps a colour far down.)
+const uint k_many_colours = 9u;
 
 inline bool is_far_down(uint colour) { return colours_down_to(colour) > k_many_colours; }
 
@@ -76,13 +76,13 @@ inline bool gives_up(uint colour, uint edges_a, uint edges_b) { return colours_d
 const uint k_has_kept = 0x80000000u;
 const uint k_has_got = 0x40000000u;
 
-// Where all edges are new, as those of a structure that has been set up standing, and few colours are enough, they are coloured again
-// class by class: J. Culberson, "Iterated Greedy Graph Coloring and the Difficulty Landscape", 1992. Edges of one colour do not
+// Where all edges are new, as those of a structure that has been set up standing, and none is far down, they are coloured again class
+// by class: J. Culberson, "Iterated Greedy Graph Coloring and the Difficulty Landscape", 1992. Edges of one colour do not
 // meet, so a class has one rank, and its edges get no colour further down than its place among the classes, or one more where the
 // ground's is not for them: each time may take a colour more, but mostly takes one less. The last colours come first, which are
-// of few edges. What was lent the ground's colour comes before them, as it may have to do without.
+// of few edges. What was lent the ground's colour comes before them, as it may have to do without. Where some are far down in the end
+// all are coloured by rank once more, as they were at first.
 const uint k_times_again = 2u;
-const uint k_few_colours = k_many_colours - k_times_again;
 
 // Of an edge that had this colour.
 inline uint class_rank(uint colour, bool both_movable)
