@@ -65,7 +65,7 @@ void find_near(uint body)
     }
     for (uint i = 0u; i < stray_count; ++i) {
         uint stray = stray_bodies[i];
-        bool is_its_turn = strays_too ? body > stray : true;
+        bool is_its_turn = !strays_too || body > stray;
         if (is_its_turn && is_candidate(stray_aabbs[i], box) && !faces_part(stray_boxes[i], oriented))
             note_near(make_pair(stray, body));
     }
