@@ -10,7 +10,7 @@ struct ManifoldImpulses {
     vec4 normal;   // N s
     vec4 total;    // N s, the sum over all sub-steps
     vec3 friction; // N s along the frame's x and y, N m s about its z
-    vec3 moment;   // N m s, see Slip
+    vec3 slip;     // m: Slip::apart as it was when they last acted
 };
 
 inline ManifoldImpulses make_impulses(ContactConstraint c)
@@ -19,7 +19,7 @@ inline ManifoldImpulses make_impulses(ContactConstraint c)
     impulses.normal = c.normal_impulse;
     impulses.total = c.total_impulse;
     impulses.friction = c.friction_impulse;
-    impulses.moment = c.moment;
+    impulses.slip = c.slip;
     return impulses;
 }
 
@@ -36,7 +36,7 @@ inline vec4 current_separations(ManifoldRows rows, vec4 base, uint traits, BodyD
     vec3 normal_b = choose((traits & (k_trait_round << k_traits_of_b)) != 0u, n, rotate_back(b.rotation, n));
     precise vec3 moved = b.position - a.position;
     precise vec3 turned = normal_b - normal_a;
-    precise float distance = dot3(moved, n) + (dot3(m.centre_b, normal_b) - dot3(m.centre_a, normal_a));
+    precise float distance = dot3(moved, n) + (dot3(m.arms.b, normal_b) - dot3(m.arms.a, normal_a));
     precise vec4 turning = rows.x * dot3(turned, m.frame.x) + rows.y * dot3(turned, m.frame.y);
     precise vec4 separations = base + (distance + turning);
     return separations;
@@ -45,7 +45,7 @@ inline vec4 current_separations(ManifoldRows rows, vec4 base, uint traits, BodyD
 // At the start of the step, where nothing has moved.
 inline vec4 first_separations(ManifoldRows rows, vec4 base)
 {
-    precise vec3 apart = rows.meeting.centre_b - rows.meeting.centre_a;
+    precise vec3 apart = rows.meeting.arms.b - rows.meeting.arms.a;
     precise vec4 separations = base + dot3(apart, rows.meeting.frame.z);
     return separations;
 }
@@ -54,8 +54,7 @@ inline vec4 first_separations(ManifoldRows rows, vec4 base)
 //
 // The middle of the points was one place when the contact was found, and has moved apart since as the bodies carry it.
 // An impulse that acts on the two bodies at two places changes their angular momentum, so both are taken to be touched
-// at one: half way, or where the body is that can be pushed, if the other cannot. K stays as it is; what is missing is
-// the slip's part of the velocity, and the moment of the impulses about the bodies' own middles.
+// at one: half way, or where the body is that can be pushed, if the other cannot. Their arms lead there. K stays as it is.
 
 struct Slip {
     vec3 apart;    // m, from A's middle to B's
@@ -90,25 +89,66 @@ inline Slip measure_slip(Meeting m, vec3 gap, uint traits, BodyDelta a, BodyDelt
     return slip;
 }
 
-inline Slip slip_after(Slip slip, VelocityPair v, float time)
+inline Arms slipped_arms(Arms arms, Slip slip)
 {
-    precise vec3 apart = slip.apart + (v.b.linear - v.a.linear) * time;
-    slip.apart = apart;
-    return slip;
+    arms.a = add_scaled(arms.a, slip.apart, slip.share_a);
+    arms.b = add_scaled(arms.b, slip.apart, -slip.share_b);
+    return arms;
 }
 
-// V as the rows see it.
-inline SpatialVector relative_velocity(VelocityPair v, Meeting m, Slip slip)
+// Where the bodies meet in a pass, and what has to be made up for there.
+struct Touch {
+    Arms arms;
+    float ahead_a; // s: by so much its arm is ahead of where the bodies are before the pass
+    float ahead_b;
+    vec3 moment; // N m s on A, the opposite on B: see slipped_moment
+};
+
+// The impulses accumulated so far have acted where the bodies met before. What they turn these by is brought up to where they
+// meet now.
+inline vec3 slipped_moment(Slip slip, Axes frame, ManifoldImpulses impulses)
 {
-    vec3 w_a = v.a.angular;
-    vec3 w_b = v.b.angular;
+    vec3 accumulated = to_world(frame, vec3(impulses.friction.x, impulses.friction.y, sum4(impulses.normal)));
+    precise vec3 since = slip.apart - impulses.slip;
+    return scale3(cross3(since, accumulated), min(slip.share_a, slip.share_b)); // 0 but between two that can be pushed
+}
+
+inline Touch touch_at(Arms arms)
+{
+    Touch touch;
+    touch.arms = arms;
+    touch.ahead_a = 0.0f;
+    touch.ahead_b = 0.0f;
+    touch.moment = vec3(0.0f, 0.0f, 0.0f);
+    return touch;
+}
+
+// `half_h`: s, half of the movement that follows the pass where one of the bodies cannot be pushed, else 0. `moved_since`: the
+// impulses that the pass starts from acted where the bodies were before their last movement, as in the relax pass.
+inline Touch touch_of_pass(Slip slip, Meeting m, ManifoldImpulses impulses, float half_h, bool moved_since)
+{
+    precise float ahead_a = slip.share_a * half_h;
+    precise float ahead_b = slip.share_b * half_h;
+    Touch touch = touch_at(slipped_arms(m.arms, slip));
+    touch.ahead_a = ahead_a;
+    touch.ahead_b = ahead_b;
+    touch.moment = choose(moved_since, touch.moment, slipped_moment(slip, m.frame, impulses));
+    return touch;
+}
+
+// V as the rows see it, where `touch` says that the bodies meet.
+inline SpatialVector relative_velocity(VelocityPair v, Axes frame, Touch touch)
+{
     precise vec3 moving = v.b.linear - v.a.linear;
-    precise vec3 spin = w_a * slip.share_a + w_b * slip.share_b;
-    precise vec3 linear = velocity_between(moving, w_a, w_b, m.centre_a, m.centre_b) - cross3(spin, slip.apart);
-    precise vec3 angular = w_b - w_a;
+    vec3 linear = velocity_between(moving, v.a.angular, v.b.angular, touch.arms);
+    if (any_lane(touch.ahead_a + touch.ahead_b > 0.0f)) {
+        precise vec3 spin = v.a.angular * touch.ahead_a + v.b.angular * touch.ahead_b;
+        linear = add_scaled(linear, cross3(spin, moving), -1.0f);
+    }
+    precise vec3 angular = v.b.angular - v.a.angular;
     SpatialVector relative;
-    relative.linear = to_local(m.frame, linear);
-    relative.angular = to_local(m.frame, angular);
+    relative.linear = to_local(frame, linear);
+    relative.angular = to_local(frame, angular);
     return relative;
 }
 
@@ -258,10 +298,9 @@ inline FrictionTarget make_friction_target(ManifoldRows rows, vec4 normal_impuls
 struct PassTarget {
     NormalTarget normal;
     FrictionTarget friction;
-    Slip slip;
-    float half_h; // s, half of the movement that follows the pass
+    Touch touch;
+    vec3 slip;       // m: Slip::apart
     float old_share; // 1 where the impulses that a pass starts from are part of the step's sum already
-    bool moved_since; // those impulses acted where the bodies were before their last movement: in the relax pass
 };
 
 // A body pair and its manifold in the midst of a pass.
@@ -404,15 +443,15 @@ inline vec3 solve_friction_rows(vec3 impulse, vec3 mass, vec3 velocity, Friction
 
 inline bool is_finite_pair(VelocityPair v)
 {
-    return is_finite3(v.a.linear) && is_finite3(v.a.angular) && is_finite3(v.b.linear) && is_finite3(v.b.angular);
+    precise float sum = (size3(v.a.linear) + size3(v.a.angular)) + (size3(v.b.linear) + size3(v.b.angular));
+    return is_finite(sum);
 }
 
 // Friction comes before the normal rows, as keeping bodies apart matters more and the last row wins.
 inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
 {
-    Slip slip = slip_after(target.slip, s.velocities, target.half_h);
     ManifoldImpulses old = s.impulses;
-    SpatialVector velocity = relative_velocity(s.velocities, rows.meeting, slip);
+    SpatialVector velocity = relative_velocity(s.velocities, rows.meeting.frame, target.touch);
     vec3 sliding = friction_velocities(velocity);
     vec3 friction = solve_friction_rows(old.friction, rows.friction_mass, sliding, target.friction);
     precise vec3 friction_change = friction - old.friction;
@@ -425,18 +464,12 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
     precise vec4 normal_change = normal - old.normal;
     precise vec4 total = old.total + (normal - old.normal * target.old_share);
 
-    // The moment of all impulses for the present slip, but for what acted before the bodies came to where they are.
     SpatialVector change = whole_impulse(rows, normal_change, friction_change);
-    vec3 acting = choose(target.moved_since, change.linear, vec3(friction.x, friction.y, sum4(normal)));
-    vec3 kept = choose(target.moved_since, old.moment, vec3(0.0f, 0.0f, 0.0f));
-    precise vec3 moment = kept + cross3(slip.apart, to_world(rows.meeting.frame, acting));
-    precise vec3 moment_change = moment - old.moment;
-    s.velocities = apply_impulse(s.velocities, rows.meeting, change, scale3(moment_change, slip.share_a),
-                                 scale3(moment_change, -slip.share_b));
+    s.velocities = apply_impulse(s.velocities, rows.meeting, target.touch.arms, change, target.touch.moment);
     s.impulses.normal = normal;
     s.impulses.total = total;
     s.impulses.friction = friction;
-    s.impulses.moment = moment;
+    s.impulses.slip = target.slip;
     return s;
 }
 
@@ -444,5 +477,6 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
 inline VelocityPair warm_start_manifold(VelocityPair v, ManifoldRows rows, ManifoldImpulses impulses)
 {
     vec3 none = vec3(0.0f, 0.0f, 0.0f);
-    return apply_impulse(v, rows.meeting, whole_impulse(rows, impulses.normal, impulses.friction), none, none);
+    SpatialVector whole = whole_impulse(rows, impulses.normal, impulses.friction);
+    return apply_impulse(v, rows.meeting, rows.meeting.arms, whole, none);
 }

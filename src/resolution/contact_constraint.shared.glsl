@@ -75,7 +75,7 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
         reciprocal(float(rate.substeps));
     c.friction_impulse = friction_impulse;
     c.hub_share = hub_share;
-    c.moment = none;
+    c.slip = none;
     c.load_speed = 0.0f;
     c.normal_impulse = no_points;
     c.total_impulse = no_points;

@@ -72,7 +72,7 @@ void take_constraint(uint index)
 void put_back_impulses(uint index)
 {
     cell_in_block(constraints, index, 11u).xyz = floatBitsToUint(impulses.friction); // beside hub_share
-    cell_in_block(constraints, index, 12u) = uvec4(floatBitsToUint(impulses.moment), floatBitsToUint(load_speed));
+    cell_in_block(constraints, index, 12u) = uvec4(floatBitsToUint(impulses.slip), floatBitsToUint(load_speed));
     cell_in_block(constraints, index, 13u) = floatBitsToUint(impulses.normal);
     cell_in_block(constraints, index, 14u) = floatBitsToUint(impulses.total);
 }
@@ -83,13 +83,14 @@ PassTarget target_of_pass(uint pass)
     BodyDelta delta_b = load_delta(body_b);
     float present_load_speed = load_speed_so_far(load_speed, rows, impulses);
     Substep substep = make_substep(substeps, is_against_static(traits), present_load_speed, parameters);
-    bool moves = pass != k_relax && is_against_static(traits);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == k_solve ? 0.0 : 1.0;
-    target.moved_since = pass == k_relax;
-    target.slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
-    target.half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
+    Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
+    bool moves = is_against_static(traits) && pass != k_relax;
+    float half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
+    target.touch = touch_of_pass(slip, rows.meeting, impulses, half_h, pass == k_relax);
+    target.slip = slip.apart;
     target.normal = make_normal_target(current_separations(rows, base_separation, traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != k_relax, substep, parameters);
     if (pass == k_relax) target.normal.lower = least_relaxed(rows, base_separation, impulses, substep);
@@ -184,7 +185,7 @@ VelocityPair solve_constraint(uint pass, uint index, PassTarget target, Velocity
         if (pass == k_relax) return velocities; // the next step's
         solved = pass_over_hit(index, target.old_share);
     }
-    if (!is_finite_pair(solved.velocities)) solved = before; // what has gone wrong here is kept from the bodies
+    if (!is_finite_pair(solved.velocities)) return velocities; // what has gone wrong here is kept from the bodies
     impulses = solved.impulses;
     return solved.velocities;
 }

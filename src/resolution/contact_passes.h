@@ -34,14 +34,16 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     const Parameters& p = state.parameters;
     const float load_speed = load_speed_so_far(c.load_speed, rows, impulses);
     const Substep substep = make_substep(substeps_of_contact(c.counts), is_against_static(c.traits), load_speed, p);
-    const bool moves = pass != ContactPass::Relax && is_against_static(c.traits);
     PassTarget target{};
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
-    target.moved_since = pass == ContactPass::Relax;
     const BodyDelta &delta_a = state.deltas[c.body_a], &delta_b = state.deltas[c.body_b];
-    target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
-    target.half_h = moves ? 0.5f * substep_length(substeps_of_contact(c.counts), p) : 0.0f;
+    const Slip slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
+    const bool is_relax = pass == ContactPass::Relax;
+    const bool moves = is_against_static(c.traits) && !is_relax;
+    const float half_h = moves ? 0.5f * substep_length(substeps_of_contact(c.counts), p) : 0.0f;
+    target.touch = touch_of_pass(slip, rows.meeting, impulses, half_h, is_relax);
+    target.slip = slip.apart;
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != ContactPass::Relax, substep, p);
     if (pass == ContactPass::Relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
@@ -108,7 +110,7 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint tick, u
         if (is_hit) s = pass_over_hit(state, before, c, rows, target);
         if (!is_finite_pair(s.velocities)) s = before; // what has gone wrong here is kept from the bodies
         c.friction_impulse = s.impulses.friction;
-        c.moment = s.impulses.moment;
+        c.slip = s.impulses.slip;
         c.normal_impulse = s.impulses.normal;
         c.total_impulse = s.impulses.total;
     }

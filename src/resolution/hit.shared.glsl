@@ -4,20 +4,17 @@
 // times the speed that it came with; a chain of bodies passes it on from sub-step to sub-step.
 // Needs resolution/contact.shared.glsl.
 
-// The rows as they are after some slip. A hit needs them: with others it would not keep the energy.
-inline ManifoldRows shift_rows(ManifoldRows rows, Slip slip)
+// The rows where the arms lead. A hit needs them: with others it would not keep the energy.
+inline ManifoldRows move_rows(ManifoldRows rows, Arms arms)
 {
-    Meeting m = rows.meeting;
-    m.centre_a = add_scaled(m.centre_a, slip.apart, slip.share_a);
-    m.centre_b = add_scaled(m.centre_b, slip.apart, -slip.share_b);
-    NormalResponse r = respond_to_normals(m);
+    rows.meeting.arms = arms;
+    NormalResponse r = respond_to_normals(rows.meeting);
     vec4 mass = rows.normal_mass; // 0 where there is no point
-    rows.meeting = m;
     rows.normal_mass = vec4(mass.x > 0.0f ? point_mass(r, rows.x.x, rows.y.x) : 0.0f,
                             mass.y > 0.0f ? point_mass(r, rows.x.y, rows.y.y) : 0.0f,
                             mass.z > 0.0f ? point_mass(r, rows.x.z, rows.y.z) : 0.0f,
                             mass.w > 0.0f ? point_mass(r, rows.x.w, rows.y.w) : 0.0f);
-    rows.friction_mass = friction_masses(m);
+    rows.friction_mass = friction_masses(rows.meeting);
     return couple_rows(rows, r);
 }
 
@@ -86,19 +83,22 @@ inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 separati
                      Parameters p)
 {
     vec4 closing = closing_speeds(separations, inv_h);
-    vec4 approaching = normal_velocities(relative_velocity(v, rows.meeting, slip), rows);
+    Meeting m = rows.meeting;
+    vec4 approaching = normal_velocities(relative_velocity(v, m.frame, touch_at(slipped_arms(m.arms, slip))), rows);
     float time = time_of_hit(approaching, rows.normal_mass, separations, inv_h, p);
-    rows = shift_rows(rows, slip_after(slip, v, time));
-    slip.apart = vec3(0.0f, 0.0f, 0.0f);
+    precise vec3 apart = slip.apart + (v.b.linear - v.a.linear) * time;
+    slip.apart = apart;
+    rows = move_rows(rows, slipped_arms(m.arms, slip));
+    m = rows.meeting;
 
-    SpatialVector motion = relative_velocity(v, rows.meeting, slip);
+    SpatialVector motion = relative_velocity(v, m.frame, touch_at(m.arms));
     NormalSweep sweep;
     sweep.velocity = normal_velocities(motion, rows);
     sweep.impulse = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     vec4 velocity = sweep.velocity;
     vec4 mass = rows.normal_mass;
     float e = rows.restitution;
-    precise float gained = dot3(falling, rows.meeting.frame.z) * (reciprocal(inv_h) - time);
+    precise float gained = dot3(falling, m.frame.z) * (reciprocal(inv_h) - time);
     vec4 leaving = vec4(leaving_velocity(velocity.x, mass.x, closing.x, e, gained, p),
                         leaving_velocity(velocity.y, mass.y, closing.y, e, gained, p),
                         leaving_velocity(velocity.z, mass.z, closing.z, e, gained, p),
@@ -115,11 +115,11 @@ inline Hit solve_hit(VelocityPair v, ManifoldRows rows, Slip slip, vec4 separati
     // Then friction, within the limit that the hit itself gives.
     vec3 none = vec3(0.0f, 0.0f, 0.0f);
     vec4 no_points = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    v = apply_impulse(v, rows.meeting, whole_impulse(rows, sweep.impulse, none), none, none);
-    vec3 sliding = friction_velocities(relative_velocity(v, rows.meeting, slip));
+    v = apply_impulse(v, m, m.arms, whole_impulse(rows, sweep.impulse, none), none);
+    vec3 sliding = friction_velocities(relative_velocity(v, m.frame, touch_at(m.arms)));
     vec3 friction = solve_friction_rows(none, rows.friction_mass, sliding, make_friction_target(rows, sweep.impulse));
     Hit hit;
-    hit.velocities = apply_impulse(v, rows.meeting, whole_impulse(rows, no_points, friction), none, none);
+    hit.velocities = apply_impulse(v, m, m.arms, whole_impulse(rows, no_points, friction), none);
     hit.impulse = sweep.impulse;
     hit.time = time;
     return hit;

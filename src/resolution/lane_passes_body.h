@@ -79,7 +79,7 @@ TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::ui
         return gather(state.constraints.data, places, i);
     };
     const auto head = cell(0), normal = cell(1), centre_a = cell(2), centre_b = cell(3), gap = cell(4), mass = cell(5),
-               friction = cell(11), moment = cell(12);
+               friction = cell(11), slip = cell(12);
     return {floatBitsToUint(head.x),
             floatBitsToUint(head.y),
             floatBitsToUint(head.z),
@@ -101,8 +101,8 @@ TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::ui
             all_of(cell(10)),
             three_of(friction),
             friction.w,
-            three_of(moment),
-            moment.w,
+            three_of(slip),
+            slip.w,
             all_of(cell(13)),
             all_of(cell(14)),
             all_of(cell(15))};
@@ -135,7 +135,7 @@ TALUS_LANE void put_constraints(const CpuState& state, const std::uint32_t* plac
     put_4(9, c.base_separation);
     put_4(10, c.normal_mass);
     put_3(11, c.friction_impulse, c.hub_share);
-    put_3(12, c.moment, c.load_speed);
+    put_3(12, c.slip, c.load_speed);
     put_4(13, c.normal_impulse);
     put_4(14, c.total_impulse);
     put_4(15, c.hit_impulse);
@@ -275,7 +275,7 @@ struct ConstraintBatch {
     ULanes body_a, body_b, traits, substeps;
     Lanes hub_share, load_speed, part_a, part_b;
     Substep substep;
-    Lanes half_h; ///< s, half of the movement that follows a pass in a sub-step
+    Lanes half_h; ///< s, see touch_of_pass
     vec3 gap;
     vec4 base_separation;
     ManifoldRows rows;
@@ -286,8 +286,8 @@ TALUS_LANE ManifoldImpulses impulses_at(const CpuState& state, const std::uint32
     const auto cell = [&](std::size_t i) __attribute__((always_inline)) {
         return gather(state.constraints.data, places, i);
     };
-    const auto friction = cell(11), moment = cell(12), normal = cell(13), total = cell(14);
-    return {all_of(normal), all_of(total), three_of(friction), three_of(moment)};
+    const auto friction = cell(11), slip = cell(12), normal = cell(13), total = cell(14);
+    return {all_of(normal), all_of(total), three_of(friction), three_of(slip)};
 }
 
 TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
@@ -296,14 +296,14 @@ TALUS_LANE void put_impulses(const CpuState& state, const std::uint32_t* places,
         scatter(state.constraints.data, places, cell, lanes, {x, y, z, w});
     };
     put(11, is.friction.x, is.friction.y, is.friction.z, batch.hub_share);
-    put(12, is.moment.x, is.moment.y, is.moment.z, batch.load_speed);
+    put(12, is.slip.x, is.slip.y, is.slip.z, batch.load_speed);
     put(13, is.normal.x, is.normal.y, is.normal.z, is.normal.w);
     put(14, is.total.x, is.total.y, is.total.z, is.total.w);
 }
 
 TALUS_LANE ManifoldImpulses choose(Mask m, const ManifoldImpulses& yes, const ManifoldImpulses& no) {
     return {choose(m, yes.normal, no.normal), choose(m, yes.total, no.total), choose(m, yes.friction, no.friction),
-            choose(m, yes.moment, no.moment)};
+            choose(m, yes.slip, no.slip)};
 }
 
 /// As target_of_pass in contact_passes.h.
@@ -318,9 +318,9 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ConstraintBatch& c,
         is_heavier ? make_substep(c.substeps, is_against_static(c.traits), load_speed, p) : c.substep;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
-    target.moved_since = relax;
-    target.slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
-    target.half_h = relax ? Lanes(0.0f) : c.half_h;
+    const Slip slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
+    target.touch = touch_of_pass(slip, rows.meeting, impulses, relax ? Lanes(0.0f) : c.half_h, relax);
+    target.slip = slip.apart;
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
                                        impulses.normal, !relax, substep, p);
     if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);

@@ -20,16 +20,10 @@ struct SpatialVector {
     vec3 angular;
 };
 
-// Where and in what directions two bodies meet, and how they yield.
-struct Meeting {
-    Axes frame;
-    vec3 centre_a; // m, from A's centre to the middle of the points, world axes
-    vec3 centre_b;
-    BodyInertia inertia_a;
-    BodyInertia inertia_b;
-    float inverse_mass_a; // 1/kg
-    float inverse_mass_b;
-    float inverse_masses; // the sum, of the shares of hubs
+// m, world axes: from each body's centre to where both meet.
+struct Arms {
+    vec3 a;
+    vec3 b;
 };
 
 struct VelocityPair {
@@ -37,10 +31,21 @@ struct VelocityPair {
     BodyVelocity b;
 };
 
-// v_b - v_a at the middle of the points, as of A's velocity and B's.
-inline vec3 velocity_between(vec3 linear, vec3 w_a, vec3 w_b, vec3 centre_a, vec3 centre_b)
+// Where and in what directions two bodies meet, and how they yield.
+struct Meeting {
+    Axes frame;
+    Arms arms; // to the middle of the points
+    BodyInertia inertia_a;
+    BodyInertia inertia_b;
+    float inverse_mass_a; // 1/kg
+    float inverse_mass_b;
+    float inverse_masses; // the sum, of the shares of hubs
+};
+
+// v_b - v_a where the bodies meet. `linear`: that of their centres.
+inline vec3 velocity_between(vec3 linear, vec3 w_a, vec3 w_b, Arms arms)
 {
-    precise vec3 velocity = linear + (cross3(w_b, centre_b) - cross3(w_a, centre_a));
+    precise vec3 velocity = linear + (cross3(w_b, arms.b) - cross3(w_a, arms.a));
     return velocity;
 }
 
@@ -56,11 +61,11 @@ inline bool is_against_static(uint traits)
 // How the relative velocity changes by an impulse on B at the middle, and a moment; A gets the opposite. World axes.
 inline SpatialVector respond(Meeting m, vec3 impulse, vec3 moment)
 {
-    precise vec3 torque_a = cross3(m.centre_a, impulse) + moment;
-    precise vec3 torque_b = cross3(m.centre_b, impulse) + moment;
+    precise vec3 torque_a = cross3(m.arms.a, impulse) + moment;
+    precise vec3 torque_b = cross3(m.arms.b, impulse) + moment;
     vec3 w_a = multiply_inertia(m.inertia_a, vec3(-torque_a.x, -torque_a.y, -torque_a.z));
     vec3 w_b = multiply_inertia(m.inertia_b, torque_b);
-    vec3 linear = velocity_between(scale3(impulse, m.inverse_masses), w_a, w_b, m.centre_a, m.centre_b);
+    vec3 linear = velocity_between(scale3(impulse, m.inverse_masses), w_a, w_b, m.arms);
     precise vec3 angular = w_b - w_a;
     SpatialVector response;
     response.linear = to_local(m.frame, linear);
@@ -186,8 +191,8 @@ inline Meeting make_meeting(ContactConstraint c, BodyInertia inertia_a, BodyIner
 {
     Meeting m;
     m.frame = contact_frame(c.normal);
-    m.centre_a = c.centre_a;
-    m.centre_b = c.centre_b;
+    m.arms.a = c.centre_a;
+    m.arms.b = c.centre_b;
     m.inertia_a = share_inertia(inertia_a, c.hub_share, c.traits);
     m.inertia_b = share_inertia(inertia_b, c.hub_share, c.traits >> k_traits_of_b);
     m.inverse_mass_a = c.inverse_mass_a;
@@ -248,13 +253,13 @@ inline SpatialVector whole_impulse(ManifoldRows rows, vec4 normal, vec3 friction
     return whole;
 }
 
-// M^-1 J^T lambda (equation 3.13). `moment_a`, `moment_b`: on top, in world axes, on each body.
-inline VelocityPair apply_impulse(VelocityPair v, Meeting m, SpatialVector whole, vec3 moment_a, vec3 moment_b)
+// M^-1 J^T lambda (equation 3.13), where the arms lead. `on_top`: N m s in world axes on A, the opposite on B.
+inline VelocityPair apply_impulse(VelocityPair v, Meeting m, Arms arms, SpatialVector whole, vec3 on_top)
 {
     vec3 impulse = to_world(m.frame, whole.linear);
     vec3 moment = to_world(m.frame, whole.angular);
-    precise vec3 torque_a = cross3(m.centre_a, impulse) + (moment + moment_a);
-    precise vec3 torque_b = cross3(m.centre_b, impulse) + (moment + moment_b);
+    precise vec3 torque_a = cross3(arms.a, impulse) + (moment + on_top);
+    precise vec3 torque_b = cross3(arms.b, impulse) + (moment - on_top);
     precise vec3 linear_a = v.a.linear - impulse * m.inverse_mass_a;
     precise vec3 linear_b = v.b.linear + impulse * m.inverse_mass_b;
     precise vec3 angular_a = v.a.angular - multiply_inertia(m.inertia_a, torque_a);

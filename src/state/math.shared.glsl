@@ -36,7 +36,15 @@ inline float square_root(float x)
 }
 
 inline bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
-inline bool is_finite3(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+
+// The sum of the components' sizes: finite where all are, up to a few below the largest float.
+inline float size3(vec3 v)
+{
+    precise float size = abs(v.x) + abs(v.y) + abs(v.z);
+    return size;
+}
+
+inline bool is_finite3(vec3 v) { return is_finite(size3(v)); }
 
 inline float clamp_to(float x, float lower, float upper) { return min(max(x, lower), upper); }
 
