@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a work group does that solves islands: all their sub-steps, with velocities in shared memory. A pass over a colour
-// costs a barrier here and a dispatch otherwise.
+// What a work group does that solves islands: all their sub-steps, with velocities in shared memory. Contacts wait for each other
+// one by one (solve_in_turn.glsl), or at a barrier after each colour where the device has no such waits.
 // Before this file the kernel gives its number of invocations, declares Islands, and defines
 //   const bool k_bounces, as for contact_passes.glsl
 //   const uint k_room, the bodies that there is room for
 //   const bool k_deltas_have_room, whether their movements lie in shared memory, too
 //   uint slot_of(uint body), the body's place there; k_room if it is one that nothing moves
 //   const uint k_own_bodies, the most that an invocation has, and uint own_body(uint i), k_none for no body
+//   const bool k_one_island, whether the group has one island and not several
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen.
 
@@ -131,12 +132,7 @@ void find_colours(uint group)
     }
 }
 
-uint own_bodies; // a bit for each
-
-void deal_manifolds() {}
-uint first_own() { return min(colour_offsets[0] + gl_LocalInvocationID.x, end_index); }
-uint after(uint index) { return min(index + gl_WorkGroupSize.x, end_index); }
-bool is_first_worker() { return gl_LocalInvocationID.x == 0u; }
+uint workers() { return gl_WorkGroupSize.x; }
 
 void wait_for_workers()
 {
@@ -144,12 +140,23 @@ void wait_for_workers()
     barrier();
 }
 
+#include "resolution/solve_in_turn.glsl"
+
 void pass_over_contacts(uint pass, uint tick, bool ends_tick)
 {
+    if (k_waits_freely) {
+        pass_in_turns(pass, tick);
+        return;
+    }
     come_by = 0u;
-    uint first = first_at(tick, first_own());
+    worker_colour = first_colour;
+    uint first = first_at(tick, manifold_from(worker));
     pass_over_colours(first_colour, first, first, pass, tick);
 }
+
+// ---- islands ----
+
+uint own_bodies; // a bit for each
 
 void integrate_own_bodies(uint tick)
 {
@@ -176,6 +183,7 @@ void solve_group(uint group)
         uint body = own_body(i);
         if (body == k_none) continue;
         own_bodies |= 1u << i;
+        begin_turns(slot_of(body));
         store_velocity(slot_of(body), unpack(velocities[body]));
         if (k_deltas_have_room) put_delta(slot_of(body), no_delta());
         atomicMax(most_substeps, unpack(inertias[body]).substeps);

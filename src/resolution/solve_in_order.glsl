@@ -88,65 +88,22 @@ bool looks_again(inout uint looks)
 }
 
 // ---- the deal ----
-//
-// Manifolds are dealt by 64 of a colour, with the rest of it as the last 64, to that many workers next to each other. Groups
-// take turns, as there are often fewer manifolds than invocations, and all multiprocessors are to have some. A place of the deal
-// has a manifold or is empty.
 
 const uint k_dealt_together = 64u; // no GPU that runs more in step (subgroups) is known to have OpenGL 4.5
-
-uint worker;
 uint workers() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x; }
-bool is_first_worker() { return worker == 0u; }
+
+#include "resolution/deal.glsl"
 
 shared uint is_left[3]; // see goes_on
-shared uint first_places[k_max_colours + 1u]; // of each colour; then the end
-uint worker_colour;                           // of the worker's present place
 
-uint count_of(uint colour) { return colour_offsets[colour + 1u] - colour_offsets[colour]; }
-
-uint places_of(uint colour)
-{
-    return (count_of(colour) + k_dealt_together - 1u) / k_dealt_together * k_dealt_together;
-}
-
+// Groups take turns, as there are often fewer manifolds than invocations, and all multiprocessors are to have some.
 void deal_manifolds()
 {
     uint me = gl_LocalInvocationID.x;
     uint deal = me / k_dealt_together * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     worker = deal * k_dealt_together + me % k_dealt_together;
     if (me < 3u) is_left[me] = 0u;
-    for (uint colour = me; colour <= k_max_colours; colour += gl_WorkGroupSize.x) {
-        uint places = 0u;
-        for (uint before = first_colour; before < colour; ++before)
-            places += places_of(before);
-        first_places[colour] = places;
-    }
-    barrier();
-}
-
-// Of later places one after the other.
-uint manifold_at(uint place)
-{
-    while (first_places[worker_colour + 1u] <= place)
-        ++worker_colour;
-    uint i = place - first_places[worker_colour];
-    return i < count_of(worker_colour) ? colour_offsets[worker_colour] + i : k_none;
-}
-
-// At this place of the worker's or a later one.
-uint manifold_from(uint place)
-{
-    for (; place < first_places[k_max_colours]; place += workers()) {
-        uint index = manifold_at(place);
-        if (index != k_none) return index;
-    }
-    return end_index;
-}
-
-uint after(uint index)
-{
-    return manifold_from(index - colour_offsets[worker_colour] + first_places[worker_colour] + workers());
+    find_places();
 }
 
 // ---- ticks in which few have a sub-step ----

@@ -39,6 +39,8 @@ uint own_body(uint i)
     return is_here && island_groups[body] == group_index() + 1u ? body : k_none;
 }
 
+const bool k_one_island = false;
+
 #include "resolution/solve_in_group.glsl"
 
 void main() { solve_group(group_index() + 1u); }

@@ -32,6 +32,8 @@ uint own_body(uint i)
     return body < parameters.body_count && islands[body] == group_index() ? body : k_none;
 }
 
+const bool k_one_island = true;
+
 #include "resolution/solve_in_group.glsl"
 
 void main()

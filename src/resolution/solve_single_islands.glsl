@@ -47,6 +47,8 @@ uint own_body(uint i)
     return slot < k_most_single ? body_at(first_place + slot) : k_none;
 }
 
+const bool k_one_island = true;
+
 #include "resolution/solve_in_group.glsl"
 
 void main()

@@ -40,6 +40,24 @@ void dispatch_groups(uint groups) {
 // More than any GPU runs at a time of a kernel that needs all registers.
 constexpr uint k_trial_groups = 4096;
 
+/// For a group whose invocations wait for each other: solve_in_group.glsl. All drivers have 32 KB.
+constexpr int k_shared_bytes_to_wait = 36 * 1024;
+
+int shared_bytes() {
+    GLint bytes = 0;
+    glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &bytes);
+    return bytes;
+}
+
+/// At least 32. Drivers that do not tell are taken to have the most that any GPU with OpenGL 4.5 is known to have.
+unsigned invocations_in_step() {
+    constexpr GLint k_most = 64;
+    GLint invocations = k_most;
+    if (epoxy_has_gl_extension("GL_KHR_shader_subgroup")) glGetIntegerv(GL_SUBGROUP_SIZE_KHR, &invocations);
+    const bool is_power_of_two = invocations > 0 && (invocations & (invocations - 1)) == 0;
+    return static_cast<unsigned>(is_power_of_two ? std::max(invocations, 32) : k_most);
+}
+
 /// TALUS_RESIDENT_GROUPS=n says how many groups may wait for each other at most, and 0 that none may.
 std::optional<uint> resident_groups_of_environment() {
     const char* value = std::getenv("TALUS_RESIDENT_GROUPS");
@@ -72,6 +90,8 @@ GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile, bool pr
     GLint64 bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     max_block_bytes_ = static_cast<std::size_t>(bytes);
+    kernel_target_.in_step = invocations_in_step();
+    kernel_target_.waits_freely = loops_freely() && most_resident_groups_ != 0u && shared_bytes() >= k_shared_bytes_to_wait;
     if (context_->is_own()) compile_side_by_side(); // of the caller's context it is a setting
     objects_ = std::make_unique<Objects>(profile, program_cache);
 }
@@ -312,7 +332,7 @@ bool GlDevice::finish_unneeded(GlProgram& program) {
 
 GlProgram& GlDevice::begun_program(const Kernel& kernel) {
     const std::string path = kernel.path;
-    return objects_->programs.try_emplace(path, path, objects_->cache).first->second;
+    return objects_->programs.try_emplace(path, path, kernel_target_, objects_->cache).first->second;
 }
 
 GlProgram& GlDevice::program(const Kernel& kernel) {

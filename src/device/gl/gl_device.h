@@ -25,6 +25,7 @@ public:
 
     DeviceInfo info() const override { return context_->info(); }
     bool loops_freely() const override { return !context_->is_software(); }
+    bool waits_freely() const override { return kernel_target_.waits_freely; }
     uint resident_groups(const Kernel&) override;
     void grow(BufferId, std::size_t bytes) override;
     std::size_t size(BufferId) const override;
@@ -85,6 +86,7 @@ private:
     std::optional<uint> most_resident_groups_;                // what the environment says
     std::unordered_map<const Kernel*, uint> resident_groups_; // of kernels that were asked for
     std::size_t max_block_bytes_ = 0;
+    KernelTarget kernel_target_;
     bool kernels_pending_ = false; // ran since the last order_after_kernels
     bool in_stage_ = false;
 };

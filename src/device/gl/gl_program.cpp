@@ -75,8 +75,8 @@ void compile_side_by_side() {
         glMaxShaderCompilerThreadsKHR(k_as_many_as_it_likes);
 }
 
-GlProgram::GlProgram(const std::string& path, const ProgramCache& cache)
-    : path_(path), source_(std::make_unique<KernelSource>(kernel_source(path))),
+GlProgram::GlProgram(const std::string& path, const KernelTarget& target, const ProgramCache& cache)
+    : path_(path), source_(std::make_unique<KernelSource>(kernel_source(path, target))),
       name_(cache.load(path, source_->text)) {
     if (name_ == 0) begin_compiling();
 }

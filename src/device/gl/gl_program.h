@@ -31,9 +31,9 @@ void compile_side_by_side();
 
 class GlProgram {
 public:
-    /// Takes the program from the cache, or gives its source to the driver's compiler without waiting for it. Throws
-    /// Error where a source file is missing.
-    GlProgram(const std::string& path, const ProgramCache&);
+    /// Takes the program from the cache, or gives its source (kernel_source) to the driver's compiler without waiting for it.
+    /// Throws Error where a source file is missing.
+    GlProgram(const std::string& path, const KernelTarget&, const ProgramCache&);
     ~GlProgram();
     GlProgram(const GlProgram&) = delete;
     GlProgram& operator=(const GlProgram&) = delete;

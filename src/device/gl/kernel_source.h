@@ -15,6 +15,12 @@ struct ShaderFile {
     std::string_view text;
 };
 
+/// What a kernel may rely on where it runs; each is a constant at its head.
+struct KernelTarget {
+    bool waits_freely = false; ///< k_waits_freely: see Device::waits_freely
+    unsigned in_step = 64;     ///< k_in_step: so many invocations next to each other may run in step, or a divisor of it
+};
+
 /// Every shader file as the build embedded it, sorted by path. cmake/embed_kernels.cmake makes the definition.
 std::span<const ShaderFile> embedded_files();
 
@@ -39,7 +45,7 @@ void check_kernel_folder();
 /// Puts the kernel, all that it includes and the prelude of all kernels together. Files below the folder that the
 /// environment variable TALUS_KERNEL_PATH names replace the embedded ones of the same path, so that a kernel can be
 /// changed without building the library. Throws Error for a file that is in neither.
-KernelSource kernel_source(std::string_view path);
+KernelSource kernel_source(std::string_view path, const KernelTarget& = {});
 
 /// A compiler's log with the source files' names and lines in place of the lines of the whole text.
 std::string trace_log(std::string_view log, const KernelSource&);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// How manifolds are dealt to workers where contacts wait for each other one by one: by some of a colour, with the rest of it as the
+// last ones, to that many workers next to each other. A place of the deal has a manifold or is empty.
+// For kernels that include solve_substeps.glsl before this file, and say
+//   const uint k_dealt_together, by how many
+//   uint workers(), how many there are
+
+uint worker;
+bool is_first_worker() { return worker == 0u; }
+
+shared uint first_places[k_max_colours + 1u]; // of each colour; then the end
+uint worker_colour;                           // of the worker's present place
+
+uint count_of(uint colour) { return colour_offsets[colour + 1u] - colour_offsets[colour]; }
+
+uint places_of(uint colour)
+{
+    return (count_of(colour) + k_dealt_together - 1u) / k_dealt_together * k_dealt_together;
+}
+
+// By all invocations of a group.
+void find_places()
+{
+    for (uint colour = gl_LocalInvocationID.x; colour <= k_max_colours; colour += gl_WorkGroupSize.x) {
+        uint places = 0u;
+        for (uint before = first_colour; before < colour; ++before)
+            places += places_of(before);
+        first_places[colour] = places;
+    }
+    barrier();
+}
+
+// Of later places one after the other.
+uint manifold_at(uint place)
+{
+    if (k_dealt_together == 1u) return colour_offsets[0] + place; // none is empty
+    while (first_places[worker_colour + 1u] <= place)
+        ++worker_colour;
+    uint i = place - first_places[worker_colour];
+    return i < count_of(worker_colour) ? colour_offsets[worker_colour] + i : k_none;
+}
+
+// At this place of the worker's or a later one.
+uint manifold_from(uint place)
+{
+    for (; place < first_places[k_max_colours]; place += workers()) {
+        uint index = manifold_at(place);
+        if (index != k_none) return index;
+    }
+    return end_index;
+}
+
+uint after(uint index)
+{
+    return manifold_from(index - colour_offsets[worker_colour] + first_places[worker_colour] + workers());
+}

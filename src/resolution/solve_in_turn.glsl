@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// A pass in which the contacts of a work group wait for each other one by one: each for those of earlier colours at its two bodies,
+// and for no other. The order at each body is that of the colours, and so the bits are; but a barrier after each colour takes as
+// long as the slowest contact, and as the next manifold that somebody makes ready. See docs/decisions/contacts-wait-one-by-one.md;
+// solve_in_order.glsl does so across groups.
+//
+// For solve_in_group.glsl, behind solve_substeps.glsl. Needs a device on which invocations of a group run side by side,
+// k_waits_freely.
+
+// What runs in step is to have contacts of one colour; but of several small islands there are few of a colour.
+const uint k_dealt_together = k_one_island ? k_in_step : 1u;
+
+#include "resolution/deal.glsl"
+
+// ---- turns ----
+
+// Of each body, as number_after says.
+shared uint turns[k_waits_freely ? k_room + 1u : 1u]; // some drivers without such waits have no room for it
+
+void begin_turns(uint slot)
+{
+    if (k_waits_freely) turns[slot] = 0u;
+}
+
+uint passes_so_far = 0u;
+
+// The body's turn where so many contacts of it have been solved in this pass. All of them have a sub-step whenever one has.
+uint number_after(uint contacts) { return k_max_colours * passes_so_far + contacts; }
+
+uint needed_turn_a; // 0: any
+uint needed_turn_b;
+
+uint turn_after(uint contacts) { return contacts == 0u ? 0u : number_after(contacts); }
+
+void find_turns(uint index)
+{
+    needed_turn_a = turn_after(earlier_of(counts, k_earlier_of_a));
+    needed_turn_b = turn_after(earlier_of(counts, k_earlier_of_b));
+    if (index < end_index) return;
+    // The overflow set is the first worker's, one contact after the other, behind all that have a colour.
+    needed_turn_a = turn_after(contacts_of_body(unpack(inertias[body_a]).traits));
+    needed_turn_b = turn_after(contacts_of_body(unpack(inertias[body_b]).traits));
+}
+
+bool is_turn()
+{
+    memoryBarrierShared(); // each look is another one
+    return turns[slot_a] >= needed_turn_a && turns[slot_b] >= needed_turn_b;
+}
+
+void end_turns(uint index)
+{
+    if (index >= end_index) return;
+    if ((traits & k_trait_movable) != 0u) turns[slot_a] = number_after(earlier_of(counts, k_earlier_of_a) + 1u);
+    if ((traits & (k_trait_movable << k_traits_of_b)) != 0u)
+        turns[slot_b] = number_after(earlier_of(counts, k_earlier_of_b) + 1u);
+}
+
+uint most_looks = 1u << 22; // some tenths of a second: nobody waits for so long whose partners run at all
+
+void count_look(inout uint looks)
+{
+    if (++looks < most_looks) return;
+    most_looks = 0u; // to the end of the launch
+    needed_turn_a = 0u;
+    needed_turn_b = 0u;
+    atomicOr(counters[k_counter_did_not_fit], k_fit_groups);
+}
+
+// In one island what runs in step is at contacts of one colour, none of which waits for another one, so all go on together. Else
+// each goes on as soon as it is its turn.
+void pass_in_turn(uint pass, uint tick, uint index, PassTarget target)
+{
+    uint looks = 0u;
+    while (k_one_island && !is_turn())
+        count_look(looks);
+    bool is_done = false;
+    do {
+        if (k_one_island || is_turn()) {
+            groupMemoryBarrier();
+            pass_over_constraint(pass, tick, index, target);
+            groupMemoryBarrier();
+            end_turns(index);
+            is_done = true;
+        } else {
+            count_look(looks);
+        }
+    } while (!k_one_island && !is_done);
+}
+
+// ---- the deal ----
+
+// Where the overflow set begins among the places, which is the first worker's; and where all of them end.
+uint overflow_place;
+uint end_place;
+
+void find_end_of_places()
+{
+    uint overflow = colour_offsets[k_overflow_colour + 1u] - end_index;
+    end_place = first_places[k_first_hub_colour];
+    overflow_place = overflow == 0u ? end_place : (end_place + workers() - 1u) / workers() * workers();
+    if (overflow > 0u) end_place = overflow_place + overflow * workers();
+}
+
+void deal_manifolds()
+{
+    worker = gl_LocalInvocationID.x;
+    find_places();
+    find_end_of_places();
+}
+
+uint own_manifold_at(uint place)
+{
+    if (place < first_places[k_first_hub_colour]) return manifold_at(place);
+    return is_first_worker() && place >= overflow_place ? end_index + (place - overflow_place) / workers() : k_none;
+}
+
+// ---- a pass ----
+
+void pass_in_turns(uint pass, uint tick)
+{
+    ++passes_so_far;
+    worker_colour = first_colour;
+    uint first = k_none; // of the worker's manifolds; the next pass begins with it
+    for (uint place = worker; place < end_place; place += workers()) {
+        uint index = own_manifold_at(place);
+        if (index == k_none) continue;
+        // To ask others than the one in hand is a load. Those of one island have the same number of sub-steps.
+        if (!k_one_island && !has_substep(index, tick)) continue;
+        take_in_hand(index);
+        if (k_one_island && !has_substep(index, tick)) continue;
+        if (first == k_none) first = index;
+        PassTarget target;
+        if (pass != k_warm_start) target = target_of_pass(pass);
+        find_turns(index);
+        pass_in_turn(pass, tick, index, target);
+    }
+    take_in_hand(first);
+    wait_for_workers();
+}
