@@ -592,8 +592,9 @@ void Simulation::redo(std::span<const uint> counters) {
                 "tree of the broad phase to the end; the device Cpu does");
         if ((reasons & k_fit_groups) != 0) {
             mend_velocities();
-            throw Error("this GPU did not run side by side what waits for each other in a launch, so a step went wrong; "
-                        "TALUS_RESIDENT_GROUPS=0 in the environment has nothing wait but at barriers");
+            throw Error(
+                "this GPU did not run side by side what waits for each other in a launch, so a step went wrong; "
+                "TALUS_RESIDENT_GROUPS=0 in the environment has nothing wait but at barriers");
         }
         if ((reasons & k_fit_pairs) != 0) {
             make_room(&Simulation::grow_pairs, pair_demand, with_headroom(pair_demand, plan.pair_capacity));

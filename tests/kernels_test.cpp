@@ -107,17 +107,19 @@ TEST(Kernels, are_accepted_by_glslang) {
     if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
         GTEST_SKIP() << "NOT TESTED, there is no glslangValidator here (package glslang-tools)";
     const fs::path folder = fs::path(testing::TempDir()) / ("talus_kernels_" + std::to_string(getpid()));
-    for (const std::string& path : kernel_paths()) {
-        const fs::path file = folder / (path + ".comp");
-        fs::create_directories(file.parent_path());
-        const KernelSource source = kernel_source(path);
-        // Of `precise` glslang 12 follows every expression back to where it began, which takes memory without end in
-        // the kernels of the solver. The word changes none of the rules that are checked here.
-        std::ofstream(file) << std::regex_replace(source.text, std::regex("\\bprecise "), "");
-        const fs::path log = folder / "log";
-        const std::string command = "glslangValidator '" + file.string() + "' > '" + log.string() + "' 2>&1";
-        EXPECT_EQ(std::system(command.c_str()), 0) << path << ":\n" << trace_log(text_of(log), source);
-    }
+    const KernelTarget of_hardware{.waits_freely = true, .in_step = 32};
+    for (const KernelTarget& target : {KernelTarget(), of_hardware})
+        for (const std::string& path : kernel_paths()) {
+            const fs::path file = folder / (path + ".comp");
+            fs::create_directories(file.parent_path());
+            const KernelSource source = kernel_source(path, target);
+            // Of `precise` glslang 12 follows every expression back to where it began, which takes memory without end
+            // in the kernels of the solver. The word changes none of the rules that are checked here.
+            std::ofstream(file) << std::regex_replace(source.text, std::regex("\\bprecise "), "");
+            const fs::path log = folder / "log";
+            const std::string command = "glslangValidator '" + file.string() + "' > '" + log.string() + "' 2>&1";
+            EXPECT_EQ(std::system(command.c_str()), 0) << path << ":\n" << trace_log(text_of(log), source);
+        }
     fs::remove_all(folder);
 }
 
@@ -141,7 +143,7 @@ TEST_P(GlKernels, are_not_made_from_a_folder_that_is_not_there) {
 TEST_P(GlKernels, compile_and_use_no_more_buffers_than_every_driver_has) {
     for (const std::string& path : kernel_paths()) {
         try {
-            GlProgram program(path, ProgramCache(false));
+            GlProgram program(path, {}, ProgramCache(false));
             program.finish(ProgramCache(false));
             EXPECT_LE(program.blocks().size(), k_max_storage_blocks) << path;
             GLint size[3]{};

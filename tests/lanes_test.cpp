@@ -137,7 +137,7 @@ struct Items {
             c.total_impulse[k] = c.normal_impulse[k] * 3.0f;
         }
         c.friction_impulse = vector(0.3f);
-        c.moment = vector(0.01f);
+        c.slip = vector(0.01f);
         constraints.push_back(c);
     }
 

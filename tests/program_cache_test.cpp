@@ -63,7 +63,7 @@ protected:
     /// Makes the kernel's program, which must work.
     void make_program(bool wanted = true, const char* kernel = k_kernel) const {
         const ProgramCache cache(wanted);
-        GlProgram program(kernel, cache);
+        GlProgram program(kernel, {}, cache);
         program.finish(cache);
         GLint linked = GL_FALSE;
         glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
@@ -134,7 +134,7 @@ TEST_P(ProgramsOnDisk, of_another_source_or_kernel_do_not_count) {
     const fs::path file = only_file();
     {
         const ProgramCache cache(true);
-        GlProgram other("finish/finish_bodies", cache);
+        GlProgram other("finish/finish_bodies", {}, cache);
         other.finish(cache);
     }
     for (const fs::path& path : files())

@@ -299,7 +299,6 @@ struct PassTarget {
     NormalTarget normal;
     FrictionTarget friction;
     Touch touch;
-    vec3 slip;       // m: Slip::apart
     float old_share; // 1 where the impulses that a pass starts from are part of the step's sum already
 };
 
@@ -447,7 +446,8 @@ inline bool is_finite_pair(VelocityPair v)
     return is_finite(sum);
 }
 
-// Friction comes before the normal rows, as keeping bodies apart matters more and the last row wins.
+// Friction comes before the normal rows, as keeping bodies apart matters more and the last row wins. The slip that these impulses
+// act with is the caller's to note: a copy of it in the target made the CPU copy all of that.
 inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarget target)
 {
     ManifoldImpulses old = s.impulses;
@@ -469,7 +469,6 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
     s.impulses.normal = normal;
     s.impulses.total = total;
     s.impulses.friction = friction;
-    s.impulses.slip = target.slip;
     return s;
 }
 

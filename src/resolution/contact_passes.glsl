@@ -77,6 +77,8 @@ void put_back_impulses(uint index)
     cell_in_block(constraints, index, 14u) = floatBitsToUint(impulses.total);
 }
 
+vec3 slip_of_target; // m: Slip::apart
+
 PassTarget target_of_pass(uint pass)
 {
     BodyDelta delta_a = load_delta(body_a);
@@ -90,7 +92,7 @@ PassTarget target_of_pass(uint pass)
     bool moves = is_against_static(traits) && pass != k_relax;
     float half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
     target.touch = touch_of_pass(slip, rows.meeting, impulses, half_h, pass == k_relax);
-    target.slip = slip.apart;
+    slip_of_target = slip.apart;
     target.normal = make_normal_target(current_separations(rows, base_separation, traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != k_relax, substep, parameters);
     if (pass == k_relax) target.normal.lower = least_relaxed(rows, base_separation, impulses, substep);
@@ -181,6 +183,7 @@ VelocityPair solve_constraint(uint pass, uint index, PassTarget target, Velocity
     if (pass == k_warm_start) return warm_start_manifold(velocities, rows, impulses);
     ManifoldState before = begin_pass(velocities);
     ManifoldState solved = solve_manifold(before, rows, target);
+    solved.impulses.slip = slip_of_target;
     if (k_bounces && solved.is_hit && can_be_hit(index, before)) {
         if (pass == k_relax) return velocities; // the next step's
         solved = pass_over_hit(index, target.old_share);

@@ -29,8 +29,12 @@ for_each_pass(uint last, uint iterations, bool relax, const Integrate& integrate
     if (relax) over_contacts(ContactPass::Relax, 0);
 }
 
+inline Slip slip_of_pass(const CpuState& state, const ContactConstraint& c, const ManifoldRows& rows) {
+    return measure_slip(rows.meeting, c.gap, c.traits, state.deltas[c.body_a], state.deltas[c.body_b]);
+}
+
 inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const ContactConstraint& c,
-                                 const ManifoldRows& rows, const ManifoldImpulses& impulses) {
+                                 const ManifoldRows& rows, const ManifoldImpulses& impulses, const Slip& slip) {
     const Parameters& p = state.parameters;
     const float load_speed = load_speed_so_far(c.load_speed, rows, impulses);
     const Substep substep = make_substep(substeps_of_contact(c.counts), is_against_static(c.traits), load_speed, p);
@@ -38,12 +42,10 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
     const BodyDelta &delta_a = state.deltas[c.body_a], &delta_b = state.deltas[c.body_b];
-    const Slip slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
     const bool is_relax = pass == ContactPass::Relax;
     const bool moves = is_against_static(c.traits) && !is_relax;
     const float half_h = moves ? 0.5f * substep_length(substeps_of_contact(c.counts), p) : 0.0f;
     target.touch = touch_of_pass(slip, rows.meeting, impulses, half_h, is_relax);
-    target.slip = slip.apart;
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
                                        impulses.normal, pass != ContactPass::Relax, substep, p);
     if (pass == ContactPass::Relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
@@ -101,8 +103,10 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint tick, u
     if (pass == ContactPass::WarmStart) {
         s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
     } else {
-        const PassTarget target = target_of_pass(state, pass, c, rows, s.impulses);
+        const Slip slip = slip_of_pass(state, c, rows);
+        const PassTarget target = target_of_pass(state, pass, c, rows, s.impulses, slip);
         s = solve_manifold(s, rows, target);
+        s.impulses.slip = slip.apart;
         const bool is_hit =
             s.is_hit && (!has_been_hit(c.hit_impulse) ||
                          can_be_hit_again(before, state.warm_starts[c.body_a], state.warm_starts[c.body_b]));

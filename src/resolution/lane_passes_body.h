@@ -308,7 +308,7 @@ TALUS_LANE ManifoldImpulses choose(Mask m, const ManifoldImpulses& yes, const Ma
 
 /// As target_of_pass in contact_passes.h.
 TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ConstraintBatch& c, const ManifoldRows& rows,
-                                     const ManifoldImpulses& impulses, const BodyDelta& delta_a,
+                                     const ManifoldImpulses& impulses, const Slip& slip, const BodyDelta& delta_a,
                                      const BodyDelta& delta_b, const Parameters& p) {
     const bool relax = pass == ContactPass::Relax;
     PassTarget target;
@@ -318,9 +318,7 @@ TALUS_LANE PassTarget target_of_pass(ContactPass pass, const ConstraintBatch& c,
         is_heavier ? make_substep(c.substeps, is_against_static(c.traits), load_speed, p) : c.substep;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = pass == ContactPass::Solve ? 0.0f : 1.0f;
-    const Slip slip = measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b);
     target.touch = touch_of_pass(slip, rows.meeting, impulses, relax ? Lanes(0.0f) : c.half_h, relax);
-    target.slip = slip.apart;
     target.normal = make_normal_target(current_separations(rows, c.base_separation, c.traits, delta_a, delta_b), rows,
                                        impulses.normal, !relax, substep, p);
     if (relax) target.normal.lower = least_relaxed(rows, c.base_separation, impulses, substep);
@@ -396,9 +394,12 @@ inline std::uint32_t pass_over_batch(const CpuState& state, ContactPass pass, st
     if (pass == ContactPass::WarmStart) {
         s.velocities = warm_start_manifold(s.velocities, rows, s.impulses);
     } else {
-        const PassTarget target = target_of_pass(pass, batch, rows, s.impulses, deltas_at(state, places.body_a),
-                                                 deltas_at(state, places.body_b), state.parameters);
+        const BodyDelta delta_a = deltas_at(state, places.body_a), delta_b = deltas_at(state, places.body_b);
+        const Slip slip = measure_slip(rows.meeting, batch.gap, batch.traits, delta_a, delta_b);
+        const PassTarget target =
+            target_of_pass(pass, batch, rows, s.impulses, slip, delta_a, delta_b, state.parameters);
         s = solve_manifold(s, rows, target);
+        s.impulses.slip = slip.apart;
         batch.stale = active & bits_of(s.is_hit || !is_finite_pair(s.velocities));
         if (batch.stale != 0) put_impulses(state, places.constraint, batch.stale, before.impulses, batch);
         active &= ~batch.stale;

@@ -175,8 +175,9 @@ bool is_turn()
     return is_after(cells_a, earlier_a) && is_after(cells_b, earlier_b);
 }
 
-// Where one group is alone, its invocations meet after each look: there are implementations that run them one after the other.
-bool is_alone() { return gl_NumWorkGroups.x == 1u; }
+// Renderers in software run the invocations of a group one after the other, so where one group is alone there they meet after each
+// look.
+bool is_alone() { return !k_waits_freely && gl_NumWorkGroups.x == 1u; }
 
 // Whether it is the turn of the contact in hand, or somebody has given up. Some drivers end a loop after so many rounds.
 bool wait_for_turn()

@@ -91,7 +91,8 @@ GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile, bool pr
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     max_block_bytes_ = static_cast<std::size_t>(bytes);
     kernel_target_.in_step = invocations_in_step();
-    kernel_target_.waits_freely = loops_freely() && most_resident_groups_ != 0u && shared_bytes() >= k_shared_bytes_to_wait;
+    kernel_target_.waits_freely =
+        loops_freely() && most_resident_groups_ != 0u && shared_bytes() >= k_shared_bytes_to_wait;
     if (context_->is_own()) compile_side_by_side(); // of the caller's context it is a setting
     objects_ = std::make_unique<Objects>(profile, program_cache);
 }

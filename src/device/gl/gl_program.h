@@ -31,8 +31,8 @@ void compile_side_by_side();
 
 class GlProgram {
 public:
-    /// Takes the program from the cache, or gives its source (kernel_source) to the driver's compiler without waiting for it.
-    /// Throws Error where a source file is missing.
+    /// Takes the program from the cache, or gives its source (kernel_source) to the driver's compiler without waiting
+    /// for it. Throws Error where a source file is missing.
     GlProgram(const std::string& path, const KernelTarget&, const ProgramCache&);
     ~GlProgram();
     GlProgram(const GlProgram&) = delete;

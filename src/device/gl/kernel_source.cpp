@@ -132,9 +132,10 @@ KernelSource kernel_source(std::string_view path, const KernelTarget& target) {
     Assembly alone;
     alone.add_file(file, "the step");
     Assembly assembly;
-    assembly.add_text("head of every kernel", "#version 450 core\nconst bool k_waits_freely = " +
-                                                  std::string(target.waits_freely ? "true" : "false") +
-                                                  ";\nconst uint k_in_step = " + std::to_string(target.in_step) + "u;\n");
+    assembly.add_text(
+        "head of every kernel",
+        "#version 450 core\nconst bool k_waits_freely = " + std::string(target.waits_freely ? "true" : "false") +
+            ";\nconst uint k_in_step = " + std::to_string(target.in_step) + "u;\n");
     for (const char* shared : {"device/gl/dialect.glsl", "state/constants.shared.glsl", "state/records.shared.glsl"})
         assembly.add_file(shared, "every kernel");
     assembly.add_text("cells of the records", cells_of_records(alone.source.text));

@@ -18,7 +18,7 @@ struct ShaderFile {
 /// What a kernel may rely on where it runs; each is a constant at its head.
 struct KernelTarget {
     bool waits_freely = false; ///< k_waits_freely: see Device::waits_freely
-    unsigned in_step = 64;     ///< k_in_step: so many invocations next to each other may run in step, or a divisor of it
+    unsigned in_step = 64; ///< k_in_step: so many invocations next to each other may run in step, or a divisor of it
 };
 
 /// Every shader file as the build embedded it, sorted by path. cmake/embed_kernels.cmake makes the definition.
