@@ -593,8 +593,8 @@ void Simulation::redo(std::span<const uint> counters) {
         if ((reasons & k_fit_groups) != 0) {
             mend_velocities();
             throw Error(
-                "this GPU did not run side by side what waits for each other in a launch, so a step went wrong; "
-                "TALUS_RESIDENT_GROUPS=0 in the environment has nothing wait but at barriers");
+                "this GPU did not run work groups, or the invocations of one, side by side as they need, so a step "
+                "went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them meet at barriers instead");
         }
         if ((reasons & k_fit_pairs) != 0) {
             make_room(&Simulation::grow_pairs, pair_demand, with_headroom(pair_demand, plan.pair_capacity));

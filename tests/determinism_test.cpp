@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -295,8 +296,15 @@ TEST_P(Paths, groups_that_wait_in_vain_are_an_error) {
     if (GetParam() != DeviceKind::Gpu || run.simulation.state_device().loops_freely())
         return; // only where one group runs after the other is it sure that they do
     run.simulation.reserve_pairs(8192);
+    run.step();
+    const auto poses_before = run.read<engine::BodyPose>(engine::BufferId::Poses, run.table.slot_count());
+    const engine::uint old_pairs_before = run.counter(engine::k_counter_old_pair_count);
     run.step_persistently(false, 2, 2);
     EXPECT_EQ(run.counter(engine::k_counter_did_not_fit), engine::k_fit_groups);
+    const auto poses = run.read<engine::BodyPose>(engine::BufferId::Poses, run.table.slot_count());
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        EXPECT_EQ(std::memcmp(&poses[i], &poses_before[i], sizeof poses[i]), 0) << "nothing has moved, " << i;
+    EXPECT_EQ(run.counter(engine::k_counter_old_pair_count), old_pairs_before);
     EXPECT_THROW(run.step(), Error);
     EXPECT_EQ(run.counter(engine::k_counter_searched_slots), 0u) << "the next step searches for pairs";
     const auto properties = run.read<engine::BodyProperties>(engine::BufferId::Properties, run.table.slot_count());

@@ -17,6 +17,7 @@
 
 #include "device/device.h"
 #include "device/gl/gl_context.h"
+#include "device/gl/gl_device.h"
 #include "device/gl/gl_program.h"
 #include "device/gl/kernel_source.h"
 #include "device/gl/record_blocks.h"
@@ -143,7 +144,7 @@ TEST_P(GlKernels, are_not_made_from_a_folder_that_is_not_there) {
 TEST_P(GlKernels, compile_and_use_no_more_buffers_than_every_driver_has) {
     for (const std::string& path : kernel_paths()) {
         try {
-            GlProgram program(path, {}, ProgramCache(false));
+            GlProgram program(path, find_kernel_target(*context), ProgramCache(false));
             program.finish(ProgramCache(false));
             EXPECT_LE(program.blocks().size(), k_max_storage_blocks) << path;
             GLint size[3]{};

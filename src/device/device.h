@@ -94,10 +94,6 @@ public:
     /// in all, without a word.
     virtual bool loops_freely() const { return true; }
 
-    /// Whether invocations of a work group run side by side, so that they may wait for each other without a barrier. Kernels
-    /// are made for it: k_waits_freely.
-    virtual bool waits_freely() const { return true; }
-
     /// How many groups of a kernel run side by side, so that they may wait for each other; 0 where that is not known.
     /// The kernel counts them itself if it includes primitives/grid_barrier.glsl and its args.x is 1.
     virtual uint resident_groups(const Kernel&) { return 0; }

@@ -5,7 +5,7 @@
 // Reads: Shapes, Deltas, Counters.
 // Writes: Poses, Loads, Rests, Counters; Velocities where a body is frozen or too fast.
 // Needs: a barrier after the last pass of the solver.
-// Overflow: none; launched empty after a step that did not fit.
+// Overflow: none; launched empty after a step that did not fit, and does nothing after one that went wrong.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/sleep.shared.glsl"
@@ -24,6 +24,7 @@ layout(std430) buffer Counters { uint counters[]; };
 void main()
 {
     uint body = item_index();
+    if ((counters[k_counter_did_not_fit] & k_fit_groups) != 0u) return;
     if (body == 0u) {
         counters[k_counter_old_pair_count] = counters[k_counter_pair_count];
         counters[k_counter_pairs_changed] = 0u;

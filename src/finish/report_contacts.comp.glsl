@@ -33,7 +33,7 @@ layout(std430) buffer Counters { uint counters[]; };
 void main()
 {
     uint pair = item_index();
-    if (pair >= counters[k_counter_pair_count]) return;
+    if (pair >= counters[k_counter_pair_count] || (counters[k_counter_did_not_fit] & k_fit_groups) != 0u) return;
     contact_states[pair] = k_contact_apart;
     Manifold manifold = unpack(manifolds[pair]);
     if (manifold.point_count == 0u) return;

@@ -99,7 +99,7 @@ inline Arms slipped_arms(Arms arms, Slip slip)
 // Where the bodies meet in a pass, and what has to be made up for there.
 struct Touch {
     Arms arms;
-    float ahead_a; // s: by so much its arm is ahead of where the bodies are before the pass
+    float ahead_a; // s: the velocity there is that of the arm which it would have after so long; impulses act on it as it is
     float ahead_b;
     vec3 moment; // N m s on A, the opposite on B: see slipped_moment
 };
@@ -143,7 +143,8 @@ inline SpatialVector relative_velocity(VelocityPair v, Axes frame, Touch touch)
     vec3 linear = velocity_between(moving, v.a.angular, v.b.angular, touch.arms);
     if (any_lane(touch.ahead_a + touch.ahead_b > 0.0f)) {
         precise vec3 spin = v.a.angular * touch.ahead_a + v.b.angular * touch.ahead_b;
-        linear = add_scaled(linear, cross3(spin, moving), -1.0f);
+        vec3 linear_ahead = add_scaled(linear, cross3(spin, moving), -1.0f);
+        linear = choose_active(touch.ahead_a + touch.ahead_b > 0.0f, linear_ahead, linear);
     }
     precise vec3 angular = v.b.angular - v.a.angular;
     SpatialVector relative;

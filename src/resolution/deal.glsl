@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How manifolds are dealt to workers where contacts wait for each other one by one: by some of a colour, with the rest of it as the
-// last ones, to that many workers next to each other. A place of the deal has a manifold or is empty.
+// How manifolds are dealt to workers: by some of a colour, with the rest of it as the last ones, to that many workers next to each
+// other. A place of the deal has a manifold or is empty.
 // For kernels that include solve_substeps.glsl before this file, and say
 //   const uint k_dealt_together, by how many
 //   uint workers(), how many there are

@@ -174,6 +174,7 @@ void solve_group(uint group)
     uint me = gl_LocalInvocationID.x;
     if (me == 0u) {
         most_substeps = 0u;
+        has_given_up = 0u;
         store_velocity(k_room, frozen_velocity());
         if (k_deltas_have_room) put_delta(k_room, no_delta());
     }
@@ -193,6 +194,7 @@ void solve_group(uint group)
     find_colours(group);
     barrier();
     solve_substeps(most_substeps);
+    if (has_given_up != 0u) return; // the velocities are as they were
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
         if (((own_bodies >> i) & 1u) == 0u) continue;
         uint body = own_body(i);

@@ -175,8 +175,8 @@ bool is_turn()
     return is_after(cells_a, earlier_a) && is_after(cells_b, earlier_b);
 }
 
-// Renderers in software run the invocations of a group one after the other, so where one group is alone there they meet after each
-// look.
+// Where one group is alone on a device on which invocations must not wait, they meet after each look: renderers in software run them
+// one after the other.
 bool is_alone() { return !k_waits_freely && gl_NumWorkGroups.x == 1u; }
 
 // Whether it is the turn of the contact in hand, or somebody has given up. Some drivers end a loop after so many rounds.

@@ -7,15 +7,16 @@
 // For solve_in_group.glsl, behind solve_substeps.glsl. Needs a device on which invocations of a group run side by side,
 // k_waits_freely.
 
-// What runs in step is to have contacts of one colour; but of several small islands there are few of a colour.
-const uint k_dealt_together = k_one_island ? k_in_step : 1u;
+// Where contacts wait, what runs in step is to have contacts of one colour; but of several small islands there are few of a colour.
+const uint k_dealt_together = k_waits_freely && k_one_island ? k_in_step : 1u;
 
 #include "resolution/deal.glsl"
 
 // ---- turns ----
 
 // Of each body, as number_after says.
-shared uint turns[k_waits_freely ? k_room + 1u : 1u]; // some drivers without such waits have no room for it
+shared uint turns[k_waits_freely ? k_room + 1u : 1u]; // where there are 32 KB for a group it would not fit
+shared uint has_given_up; // 1: somebody has waited in vain, and nobody waits any longer
 
 void begin_turns(uint slot)
 {
@@ -56,36 +57,44 @@ void end_turns(uint index)
         turns[slot_b] = number_after(earlier_of(counts, k_earlier_of_b) + 1u);
 }
 
-uint most_looks = 1u << 22; // some tenths of a second: nobody waits for so long whose partners run at all
+const uint k_most_looks = 1u << 22;   // some tenths of a second: nobody waits for so long whose partners run at all
+const uint k_looks_between = 1024u;   // looks at whether somebody has given up
 
-void count_look(inout uint looks)
+void give_up()
 {
-    if (++looks < most_looks) return;
-    most_looks = 0u; // to the end of the launch
-    needed_turn_a = 0u;
-    needed_turn_b = 0u;
+    has_given_up = 1u;
     atomicOr(counters[k_counter_did_not_fit], k_fit_groups);
 }
 
+// Whether to look once more.
+bool looks_again(inout uint looks)
+{
+    ++looks;
+    if (looks == k_most_looks) give_up();
+    return looks % k_looks_between != 0u || has_given_up == 0u;
+}
+
 // In one island what runs in step is at contacts of one colour, none of which waits for another one, so all go on together. Else
-// each goes on as soon as it is its turn.
+// each goes on as soon as it is its turn. Some drivers end a loop after so many rounds.
 void pass_in_turn(uint pass, uint tick, uint index, PassTarget target)
 {
     uint looks = 0u;
-    while (k_one_island && !is_turn())
-        count_look(looks);
+    bool is_its_turn = is_turn();
+    while (k_one_island && !is_its_turn && looks_again(looks))
+        is_its_turn = is_turn();
     bool is_done = false;
     do {
-        if (k_one_island || is_turn()) {
+        if (k_one_island || is_its_turn) {
             groupMemoryBarrier();
             pass_over_constraint(pass, tick, index, target);
             groupMemoryBarrier();
             end_turns(index);
             is_done = true;
         } else {
-            count_look(looks);
+            is_its_turn = is_turn();
         }
-    } while (!k_one_island && !is_done);
+    } while (!k_one_island && !is_done && looks_again(looks));
+    if (!is_its_turn || !is_done) give_up();
 }
 
 // ---- the deal ----
@@ -124,16 +133,17 @@ void pass_in_turns(uint pass, uint tick)
     uint first = k_none; // of the worker's manifolds; the next pass begins with it
     for (uint place = worker; place < end_place; place += workers()) {
         uint index = own_manifold_at(place);
-        if (index == k_none) continue;
         // To ask others than the one in hand is a load. Those of one island have the same number of sub-steps.
-        if (!k_one_island && !has_substep(index, tick)) continue;
-        take_in_hand(index);
-        if (k_one_island && !has_substep(index, tick)) continue;
-        if (first == k_none) first = index;
-        PassTarget target;
-        if (pass != k_warm_start) target = target_of_pass(pass);
-        find_turns(index);
-        pass_in_turn(pass, tick, index, target);
+        if (index != k_none && (k_one_island || has_substep(index, tick))) {
+            take_in_hand(index);
+            if (has_substep(index, tick)) {
+                if (first == k_none) first = index;
+                PassTarget target;
+                if (pass != k_warm_start) target = target_of_pass(pass);
+                find_turns(index);
+                pass_in_turn(pass, tick, index, target);
+            }
+        }
     }
     take_in_hand(first);
     wait_for_workers();

@@ -163,7 +163,7 @@ struct ContactConstraint {
     // What the solver's passes change.
     vec3 friction_impulse; // N s, N s, N m s, accumulated
     float hub_share;       // of a hub's mass, in the colours for hubs
-    vec3 slip;             // m: how far the two middles were apart when these impulses acted last (contact.shared.glsl)
+    vec3 slip;             // m: Slip::apart as it was when these impulses acted last (contact.shared.glsl)
     float load_speed;      // m/s: what the normal impulses of the last step do to the relative velocity
     vec4 normal_impulse; // N s, accumulated
     vec4 total_impulse;  // N s, the sum over all sub-steps

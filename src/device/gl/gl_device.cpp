@@ -40,25 +40,8 @@ void dispatch_groups(uint groups) {
 // More than any GPU runs at a time of a kernel that needs all registers.
 constexpr uint k_trial_groups = 4096;
 
-/// For a group whose invocations wait for each other: solve_in_group.glsl. All drivers have 32 KB.
-constexpr int k_shared_bytes_to_wait = 36 * 1024;
-
-int shared_bytes() {
-    GLint bytes = 0;
-    glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &bytes);
-    return bytes;
-}
-
-/// At least 32. Drivers that do not tell are taken to have the most that any GPU with OpenGL 4.5 is known to have.
-unsigned invocations_in_step() {
-    constexpr GLint k_most = 64;
-    GLint invocations = k_most;
-    if (epoxy_has_gl_extension("GL_KHR_shader_subgroup")) glGetIntegerv(GL_SUBGROUP_SIZE_KHR, &invocations);
-    const bool is_power_of_two = invocations > 0 && (invocations & (invocations - 1)) == 0;
-    return static_cast<unsigned>(is_power_of_two ? std::max(invocations, 32) : k_most);
-}
-
-/// TALUS_RESIDENT_GROUPS=n says how many groups may wait for each other at most, and 0 that none may.
+/// TALUS_RESIDENT_GROUPS=n says how many groups may wait for each other at most, and 0 that nothing may but at
+/// barriers.
 std::optional<uint> resident_groups_of_environment() {
     const char* value = std::getenv("TALUS_RESIDENT_GROUPS");
     if (value == nullptr) return std::nullopt;
@@ -71,7 +54,23 @@ std::optional<uint> resident_groups_of_environment() {
     return groups;
 }
 
+/// Of a kernel that solves islands, with k_waits_freely: what it keeps of a body, and some more.
+constexpr int k_shared_bytes_to_wait = 36 * 1024;
+static_assert(k_shared_bytes_to_wait >= (k_island_bodies + 1) * 32 + 2048 &&
+              k_shared_bytes_to_wait >= (k_most_single + 1) * 32 + 2048);
+
 } // namespace
+
+KernelTarget find_kernel_target(const OpenGlContext& context) {
+    GLint shared_bytes = 0;
+    glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &shared_bytes);
+    KernelTarget target;
+    target.waits_freely =
+        !context.is_software() && resident_groups_of_environment() != 0u && shared_bytes >= k_shared_bytes_to_wait;
+    // All GPUs of this vendor have this number. Drivers of others may compile a kernel for more than they tell.
+    if (context.info().driver.find("NVIDIA") != std::string::npos) target.in_step = 32;
+    return target;
+}
 
 GlDevice::Objects::Objects(bool profile, bool program_cache)
     : parameters("Parameters", sizeof(Parameters)), cache(program_cache), steps(profile) {
@@ -90,9 +89,7 @@ GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile, bool pr
     GLint64 bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     max_block_bytes_ = static_cast<std::size_t>(bytes);
-    kernel_target_.in_step = invocations_in_step();
-    kernel_target_.waits_freely =
-        loops_freely() && most_resident_groups_ != 0u && shared_bytes() >= k_shared_bytes_to_wait;
+    kernel_target_ = find_kernel_target(*context_);
     if (context_->is_own()) compile_side_by_side(); // of the caller's context it is a setting
     objects_ = std::make_unique<Objects>(profile, program_cache);
 }

@@ -18,6 +18,9 @@
 
 namespace talus::engine {
 
+/// Of the context, which has to be current. Throws Error where TALUS_RESIDENT_GROUPS is no number.
+KernelTarget find_kernel_target(const OpenGlContext&);
+
 class GlDevice final : public Device {
 public:
     GlDevice(std::unique_ptr<OpenGlContext>, bool profile, bool program_cache);
@@ -25,7 +28,6 @@ public:
 
     DeviceInfo info() const override { return context_->info(); }
     bool loops_freely() const override { return !context_->is_software(); }
-    bool waits_freely() const override { return kernel_target_.waits_freely; }
     uint resident_groups(const Kernel&) override;
     void grow(BufferId, std::size_t bytes) override;
     std::size_t size(BufferId) const override;
