@@ -141,10 +141,11 @@ inline SpatialVector relative_velocity(VelocityPair v, Axes frame, Touch touch)
 {
     precise vec3 moving = v.b.linear - v.a.linear;
     vec3 linear = velocity_between(moving, v.a.angular, v.b.angular, touch.arms);
-    if (any_lane(touch.ahead_a + touch.ahead_b > 0.0f)) {
+    bool is_ahead = touch.ahead_a + touch.ahead_b > 0.0f;
+    if (any_lane(is_ahead)) {
         precise vec3 spin = v.a.angular * touch.ahead_a + v.b.angular * touch.ahead_b;
         vec3 linear_ahead = add_scaled(linear, cross3(spin, moving), -1.0f);
-        linear = choose_active(touch.ahead_a + touch.ahead_b > 0.0f, linear_ahead, linear);
+        linear = choose_active(is_ahead, linear_ahead, linear);
     }
     precise vec3 angular = v.b.angular - v.a.angular;
     SpatialVector relative;

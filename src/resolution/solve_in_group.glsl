@@ -194,7 +194,7 @@ void solve_group(uint group)
     find_colours(group);
     barrier();
     solve_substeps(most_substeps);
-    if (has_given_up != 0u) return; // the velocities are as they were
+    if (have_given_up()) return; // the velocities are as they were
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
         if (((own_bodies >> i) & 1u) == 0u) continue;
         uint body = own_body(i);

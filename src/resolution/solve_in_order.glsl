@@ -12,12 +12,9 @@
 //
 // For solve_persistent.glsl, behind solve_substeps.glsl and grid_barrier.glsl.
 
+#include "resolution/waits.glsl"
+
 // ---- stamps ----
-
-uint passes_in_order = 0u; // so far
-
-// Where so many contacts of a body have been solved in this pass.
-uint number_after(uint contacts) { return k_max_colours * passes_in_order + contacts; }
 
 uint stamp_of(uvec4 cell, uint number) { return stamp_of(cell.x, cell.y, cell.z, number); }
 bool has_stamp(uvec4 cell, uint number) { return is_stamp(cell.w, stamp_of(cell, number)); }
@@ -73,18 +70,6 @@ void take_stamps_away(uint body)
 {
     BodyVelocityCells stored = velocities[body];
     if (has_stamps(stored)) store_velocity(body, without_stamps(stored, body));
-}
-
-// ---- waits ----
-
-const uint k_looks_between = 1024u; // looks at whether somebody has given up
-
-// Whether to look once more at what is not there yet.
-bool looks_again(inout uint looks)
-{
-    ++looks;
-    if (looks == k_most_polls) give_up();
-    return looks % k_looks_between != 0u || !have_given_up();
 }
 
 // ---- the deal ----

@@ -14,19 +14,25 @@ const uint k_dealt_together = k_waits_freely && k_one_island ? k_in_step : 1u;
 
 // ---- turns ----
 
-// Of each body, as number_after says.
+shared uint has_given_up;
+
+bool have_given_up() { return has_given_up != 0u; }
+
+void give_up()
+{
+    has_given_up = 1u;
+    atomicOr(counters[k_counter_did_not_fit], k_fit_groups);
+}
+
+#include "resolution/waits.glsl"
+
+// Of each body, as number_after says. All of its contacts have a sub-step whenever one has.
 shared uint turns[k_waits_freely ? k_room + 1u : 1u]; // where there are 32 KB for a group it would not fit
-shared uint has_given_up; // 1: somebody has waited in vain, and nobody waits any longer
 
 void begin_turns(uint slot)
 {
     if (k_waits_freely) turns[slot] = 0u;
 }
-
-uint passes_so_far = 0u;
-
-// The body's turn where so many contacts of it have been solved in this pass. All of them have a sub-step whenever one has.
-uint number_after(uint contacts) { return k_max_colours * passes_so_far + contacts; }
 
 uint needed_turn_a; // 0: any
 uint needed_turn_b;
@@ -55,23 +61,6 @@ void end_turns(uint index)
     if ((traits & k_trait_movable) != 0u) turns[slot_a] = number_after(earlier_of(counts, k_earlier_of_a) + 1u);
     if ((traits & (k_trait_movable << k_traits_of_b)) != 0u)
         turns[slot_b] = number_after(earlier_of(counts, k_earlier_of_b) + 1u);
-}
-
-const uint k_most_looks = 1u << 22;   // some tenths of a second: nobody waits for so long whose partners run at all
-const uint k_looks_between = 1024u;   // looks at whether somebody has given up
-
-void give_up()
-{
-    has_given_up = 1u;
-    atomicOr(counters[k_counter_did_not_fit], k_fit_groups);
-}
-
-// Whether to look once more.
-bool looks_again(inout uint looks)
-{
-    ++looks;
-    if (looks == k_most_looks) give_up();
-    return looks % k_looks_between != 0u || has_given_up == 0u;
 }
 
 // In one island what runs in step is at contacts of one colour, none of which waits for another one, so all go on together. Else
@@ -126,9 +115,10 @@ uint own_manifold_at(uint place)
 
 // ---- a pass ----
 
+// What runs in step stays at one colour, at places without a manifold too: so nothing here leaves a round of the loop early.
 void pass_in_turns(uint pass, uint tick)
 {
-    ++passes_so_far;
+    ++passes_in_order;
     worker_colour = first_colour;
     uint first = k_none; // of the worker's manifolds; the next pass begins with it
     for (uint place = worker; place < end_place; place += workers()) {
