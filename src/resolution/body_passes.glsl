@@ -5,25 +5,23 @@
 //   BodyVelocity load_settled_velocity(uint slot, uint its_traits), once all contacts of the sub-step before are passed over
 //   void store_delta(uint body, BodyDelta delta)
 // and it declares Properties, Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
-// Reads: Shapes, Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
+// Reads: Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
-layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 
 // Where the tick begins a sub-step of the body, ends the one before with its movement, and begins the new one with its
 // forces: between the two nothing happens. A body whose sub-steps are all done is left alone.
 void integrate_body(uint body, uint tick)
 {
     BodyInertia inertia = unpack(inertias[body]);
-    BodyShape shape = unpack(shapes[body]);
-    uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
-    if (substep > inertia.substeps || !is_own(inertia) || !is_mover(shape)) return;
-    // The rest at once: loads behind a decision wait for what it is made from.
+    // All at once: loads behind a decision wait for what it is made from.
     BodyPose pose = unpack(poses[body]);
     BodyDelta delta = load_delta(body);
     BodyWarmStart warm = load_warm_start(body);
     BodyProperties its_properties = unpack(properties[body]);
     BodyLoad load = unpack(loads[body]);
+    uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
+    if (substep > inertia.substeps || !is_own(inertia) || (inertia.traits & k_trait_moves) == 0u) return;
     if ((pose.flags & k_body_frozen) != 0u) return;
     BodyVelocity velocity = load_settled_velocity(slot_of(body), inertia.traits);
     float h = substep_length(inertia.substeps, parameters);
@@ -40,7 +38,7 @@ void integrate_body(uint body, uint tick)
     vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
     warm = gather_impulses(warm, velocity);
     velocity = integrate_velocity(velocity, warm, rotation, its_properties, inertia, load,
-                                  is_movable(shape), h, parameters);
+                                  (inertia.traits & k_trait_movable) != 0u, h, parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();
         warm = no_warm_start(velocity);

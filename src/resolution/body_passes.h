@@ -16,7 +16,7 @@ inline void integrate_body(CpuState& state, uint body, uint tick) {
     const BodyInertia& inertia = state.inertias[body];
     const uint substep = substep_at(tick, inertia.traits);
     BodyPose& pose = state.poses[body];
-    if (substep > inertia.substeps || inertia.substeps == 0 || !is_mover(state.shapes[body])) return;
+    if (substep > inertia.substeps || inertia.substeps == 0 || (inertia.traits & k_trait_moves) == 0) return;
     if ((pose.flags & k_body_frozen) != 0) return;
     const float h = substep_length(inertia.substeps, state.parameters);
     BodyVelocity velocity = state.velocities[body];
@@ -35,8 +35,8 @@ inline void integrate_body(CpuState& state, uint body, uint tick) {
 
     const vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
     warm = gather_impulses(warm, velocity);
-    velocity = integrate_velocity(velocity, warm, rotation, properties, inertia, load, is_movable(state.shapes[body]),
-                                  h, state.parameters);
+    velocity = integrate_velocity(velocity, warm, rotation, properties, inertia, load,
+                                  (inertia.traits & k_trait_movable) != 0, h, state.parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();
         warm = no_warm_start(velocity);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: the movement that ends a sub-step, and the forces that begin the next one.
 // args.x: the tick.
-// Reads: Shapes, Properties, Loads, Inertias.
+// Reads: Properties, Loads, Inertias.
 // Writes: Velocities, Deltas, WarmStarts; Poses (flags) and Counters where a body is frozen.
 // Needs: a barrier after prepare_bodies, and after the pass before.
 // Overflow: none; launched empty after a step that did not fit.

@@ -446,14 +446,13 @@ inline void take_bodies(const CpuState& state, const std::uint32_t* indices, std
         const std::uint32_t body = indices[lane < count ? lane : 0], bit = 1u << lane;
         batch.indices[lane] = body;
         batch.offsets.bytes[lane] = sizeof(engine::BodyVelocity) * body;
-        const std::uint32_t kind = state.shapes.data[body].type >> 8 & 255u; // see kind_of
-        const std::uint32_t substeps = state.inertias.data[body].substeps;
-        if (lane >= count || (kind != k_kind_rigid && kind != k_kind_kinematic) || substeps == 0 ||
+        const engine::BodyInertia& inertia = state.inertias.data[body];
+        if (lane >= count || (inertia.traits & k_trait_moves) == 0 || inertia.substeps == 0 ||
             (state.poses.data[body].flags & k_body_frozen) != 0)
             continue;
         batch.lanes |= bit;
-        batch.ticks = join_ticks(batch.ticks, substeps, state.inertias.data[body].traits);
-        if (kind == k_kind_rigid) rigid |= bit;
+        batch.ticks = join_ticks(batch.ticks, inertia.substeps, inertia.traits);
+        if ((inertia.traits & k_trait_movable) != 0) rigid |= bit;
     }
     batch.rigid = mask_of(rigid);
     batch.inertia = inertias_at(state, batch.offsets);

@@ -8,7 +8,7 @@
 //   uint slot_of(uint body), the body's place there; k_room if it is one that nothing moves
 //   const uint k_own_bodies, the most that an invocation has, and uint own_body(uint i), k_none for no body
 //   const bool k_one_island, whether the group has one island and not several
-// Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Shapes, Properties, Loads.
+// Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen.
 
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };

@@ -121,12 +121,14 @@ void pass_in_turns(uint pass, uint tick)
     ++passes_in_order;
     worker_colour = first_colour;
     uint first = k_none; // of the worker's manifolds; the next pass begins with it
-    for (uint place = worker; place < end_place; place += workers()) {
-        uint index = own_manifold_at(place);
+    bool is_end = false; // in the last round that one is only taken in hand
+    for (uint place = worker; !is_end; place += workers()) {
+        is_end = place >= end_place;
+        uint index = is_end ? first : own_manifold_at(place);
         // To ask others than the one in hand is a load. Those of one island have the same number of sub-steps.
         if (index != k_none && (k_one_island || has_substep(index, tick))) {
             take_in_hand(index);
-            if (has_substep(index, tick)) {
+            if (!is_end && has_substep(index, tick)) {
                 if (first == k_none) first = index;
                 PassTarget target;
                 if (pass != k_warm_start) target = target_of_pass(pass);
@@ -135,6 +137,5 @@ void pass_in_turns(uint pass, uint tick)
             }
         }
     }
-    take_in_hand(first);
     wait_for_workers();
 }

@@ -5,7 +5,7 @@
 // which nothing bounces.
 // Before this file the kernel defines k_multirate_islands, as for contact_passes.glsl.
 // args.x: 1 to count how many groups can run at a time instead. args.y: 1 where some body is kinematic.
-// Reads: Counters, ColourOffsets, Hubs, LaunchedBodies, Inertias, Shapes, Properties, Loads.
+// Reads: Counters, ColourOffsets, Hubs, LaunchedBodies, Inertias, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
 // HubChanges, FastColours, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; Arrivals as plan_colours leaves it.
@@ -106,16 +106,17 @@ uint fast_marks = 0u; // bits for its bodies in turns: one of them may have more
 void integrate_own_bodies(uint tick)
 {
     // A hub is its keeper's, which has moved it and need not wait to see that.
-    uint hub = gl_LocalInvocationID.x == k_hub_keeper ? gl_WorkGroupID.x : counters[k_counter_hub_count];
+    uint hub_count = counters[k_counter_hub_count];
+    uint hub = gl_LocalInvocationID.x == k_hub_keeper ? gl_WorkGroupID.x : hub_count;
     // Where most bodies are launched, to look at all of them is quicker than to ask a list which they are.
     uint listed = counters[k_counter_launched_bodies];
     bool looks_at_all = 2u * listed > parameters.body_count;
     uint end = looks_at_all ? parameters.body_count : listed;
     uint next = worker;
     uint mark = 1u;
-    while (hub < counters[k_counter_hub_count] || next < end) {
+    while (hub < hub_count || next < end) {
         uint body;
-        moves_hub = hub < counters[k_counter_hub_count];
+        moves_hub = hub < hub_count;
         if (moves_hub) {
             body = hubs[hub];
             hub += gl_NumWorkGroups.x;
