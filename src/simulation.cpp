@@ -31,7 +31,12 @@ constexpr uint k_most_substeps_of_large = 32;
 // to be worth it, and all in one might be too long for a watchdog.
 constexpr uint k_most_manifolds_each = 96;
 // Bodies an invocation of it, where it had nothing to do of late.
-constexpr uint k_most_bodies_each = 32;
+constexpr uint k_most_bodies_each = 48;
+// Its contacts wait for each other longer than they work, so it is done soonest with two invocations for each. But it
+// takes a multiprocessor for each group, and where work groups beside it have this many contacts for each invocation of
+// the GPU, they need longer than it does: then its invocations have more contacts, and others the multiprocessors.
+constexpr uint k_much_beside = 16;
+constexpr uint k_manifolds_each_beside = 4;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
@@ -351,6 +356,17 @@ StepPlan Simulation::plan_in_launches(const Population& population) const {
     return now;
 }
 
+/// The invocations that the persistent launch is to have on a GPU that can run so many of its kernel at a time. Those
+/// that have nothing to do only make the wait longer, and take the room of launches beside it. What wakes, or becomes
+/// one large island, shows some steps later: then no invocation shall have too much.
+static std::uint64_t persistent_workers(const StepPlan& plan, std::uint64_t solved, std::uint64_t invocations) {
+    const std::uint64_t least = plan.waking != Waking::None ? k_none : plan.body_count / k_most_bodies_each;
+    const std::uint64_t launched = plan.most_launched;
+    const std::uint64_t beside = plan.has_groups() && solved > launched ? solved - launched : 0;
+    const bool much_beside = beside >= k_much_beside * invocations;
+    return std::max(much_beside ? launched / k_manifolds_each_beside : 2 * launched, least);
+}
+
 StepPlan Simulation::plan_step(const Population& population) const {
     StepPlan now = plan_in_launches(population);
     if (now.hub_capacity > 0) now.weighing_groups = std::max(placement.resolution->resident_groups(weigh_hubs), 1u);
@@ -358,13 +374,10 @@ StepPlan Simulation::plan_step(const Population& population) const {
     if (!now.may_be_persistent()) return now;
     const Kernel& solver = persistent_solver(now);
     const uint groups = placement.resolution->resident_groups(solver);
+    const std::uint64_t invocations = std::uint64_t{groups} * solver.items_a_group;
     const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
-    const std::uint64_t most = std::uint64_t{k_most_manifolds_each} * groups * solver.items_a_group;
-    if (groups == 0 || passes > most) return now;
-    // Those that have nothing to do only make the wait longer, and take the room of launches beside it. What wakes, or
-    // becomes one large island, shows some steps later: then no invocation shall have too much.
-    const std::uint64_t least = now.waking != Waking::None ? k_none : now.body_count / k_most_bodies_each;
-    const std::uint64_t workers = std::max(2 * std::uint64_t{now.most_launched}, least);
+    if (groups == 0 || passes > k_most_manifolds_each * invocations) return now;
+    const std::uint64_t workers = persistent_workers(now, solved_count, invocations);
     // Islands that work groups solve are to run beside it, and it takes all of a multiprocessor for each of its groups.
     const uint spare = now.has_groups() ? groups / k_groups_a_spare : 0;
     now.persistent_groups =
