@@ -35,6 +35,7 @@ void plan_launches(bool due)
     counters[k_counter_graph_pairs] = pair_count;
     dispatches[k_dispatch_graph_pairs] = groups_for(pair_count, k_group_size);
     dispatches[k_dispatch_graph_tiles] = groups_for(pair_count, k_sort_tile);
+    dispatches[k_dispatch_graph_counts] = groups_for(pair_count, k_count_group);
 }
 
 void count_nothing()

@@ -14,6 +14,7 @@ static void plan_launches(CpuState& state, bool due) {
     state.counters[k_counter_graph_pairs] = pair_count;
     state.dispatches[k_dispatch_graph_pairs] = groups_for(pair_count, k_group_size);
     state.dispatches[k_dispatch_graph_tiles] = groups_for(pair_count, k_sort_tile);
+    state.dispatches[k_dispatch_graph_counts] = groups_for(pair_count, k_count_group);
 }
 
 static void count_nothing(CpuState& state) {

@@ -14,7 +14,7 @@
 #include "resolution/load.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 256) in; // k_count_group
 
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
@@ -87,6 +87,6 @@ void main()
     if (!is_first || manifold_count == 0u) return;
     atomicAdd(counters[k_counter_manifold_count], manifold_count);
     atomicAdd(counters[k_counter_contact_count], contact_count);
-    atomicMax(counters[k_counter_substep_demand], substep_demand);
-    atomicMax(counters[k_counter_colour_demand], colour_demand);
+    if (substep_demand > counters[k_counter_substep_demand]) atomicMax(counters[k_counter_substep_demand], substep_demand);
+    if (colour_demand > counters[k_counter_colour_demand]) atomicMax(counters[k_counter_colour_demand], colour_demand);
 }

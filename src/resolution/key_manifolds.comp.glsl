@@ -38,6 +38,7 @@ void main()
     uint group = group_number(island_groups[body]);
     manifold_keys[pair] = manifold_key(group, colour);
     if (group != k_launched) return;
-    if (colour < k_first_hub_colour) atomicMax(counters[k_counter_launched_colours], colours_down_to(colour));
+    uint colours = colour < k_first_hub_colour ? colours_down_to(colour) : 0u;
+    if (colours > counters[k_counter_launched_colours]) atomicMax(counters[k_counter_launched_colours], colours);
     if (colour == k_overflow_colour) atomicAdd(counters[k_counter_launched_overflow], 1u);
 }

@@ -59,7 +59,7 @@ static void make_graph(Device& device, const StepPlan& plan) {
     begin_sort(device, order);
     const bool measures_islands = plan.measures_islands();
     device.run({.kernel = begin_graph, .items = std::max(plan.body_count, 1u), .args = {measures_islands}});
-    device.run({.kernel = keep_colours, .slot = k_dispatch_graph_pairs});
+    device.run({.kernel = keep_colours, .slot = k_dispatch_graph_counts});
     // Colours and islands are found beside each other.
     device.run({.kernel = assign_colours, .items = plan.colouring_groups, .overlaps_next = measures_islands});
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});

@@ -149,13 +149,15 @@ const uint k_dispatch_reports = k_dispatch_hubs + 1u; // groups of 64 pairs, for
 const uint k_dispatch_report_ends = k_dispatch_reports + 1u; // groups of 64 pairs of the last step
 const uint k_dispatch_graph_pairs = k_dispatch_report_ends + 1u; // groups of 64 pairs, where a constraint graph is made
 const uint k_dispatch_graph_tiles = k_dispatch_graph_pairs + 1u; // sort tiles of them
-const uint k_dispatch_count = k_dispatch_graph_tiles + 1u;
+const uint k_dispatch_graph_counts = k_dispatch_graph_tiles + 1u; // groups of k_count_group of them
+const uint k_dispatch_count = k_dispatch_graph_counts + 1u;
 
 const uint k_block_records = 32u; // see device/gl/record_blocks.h
 const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each
 const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
+const uint k_count_group = 256u;  // items that one group counts: with small groups, what they add up waits for one word
 // Of Arrivals, see primitives/grid_barrier.glsl.
 const uint k_arrival_words = 3u;
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
