@@ -3,7 +3,7 @@
 // k_multirate_islands, as for contact_passes.glsl, and
 //   bool is_own(BodyInertia inertia), whether the kernel solves such a body
 //   BodyVelocity load_settled_velocity(uint slot, uint its_traits), once all contacts of the sub-step before are passed over
-//   void store_delta(uint body, BodyDelta delta)
+//   void store_delta(uint body, uint slot, BodyDelta delta)
 // and it declares Properties, Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
@@ -16,14 +16,15 @@ void integrate_body(uint body, uint tick)
     BodyInertia inertia = unpack(inertias[body]);
     // All at once: loads behind a decision wait for what it is made from.
     BodyPose pose = unpack(poses[body]);
-    BodyDelta delta = load_delta(body);
+    uint slot = slot_of(body);
+    BodyDelta delta = load_delta(body, slot);
     BodyWarmStart warm = load_warm_start(body);
     BodyProperties its_properties = unpack(properties[body]);
     BodyLoad load = unpack(loads[body]);
     uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
     if (substep > inertia.substeps || !is_own(inertia) || (inertia.traits & k_trait_moves) == 0u) return;
     if ((pose.flags & k_body_frozen) != 0u) return;
-    BodyVelocity velocity = load_settled_velocity(slot_of(body), inertia.traits);
+    BodyVelocity velocity = load_settled_velocity(slot, inertia.traits);
     float h = substep_length(inertia.substeps, parameters);
     if (substep > 0u) {
         BodyVelocity limited = limit_speeds(velocity, parameters);
@@ -31,7 +32,7 @@ void integrate_body(uint body, uint tick)
         velocity = limited;
         vec3 falling = falling_acceleration(velocity, warm, its_properties, inertia, load, h, parameters);
         delta = integrate_position(delta, warm, velocity, falling, h);
-        store_delta(body, delta);
+        store_delta(body, slot, delta);
     }
     if (substep == inertia.substeps) return;
 
@@ -49,5 +50,5 @@ void integrate_body(uint body, uint tick)
     warm.linear_before = velocity.linear;
     warm.angular_before = velocity.angular;
     warm_starts[body] = pack(warm);
-    store_velocity(slot_of(body), velocity);
+    store_velocity(slot, velocity);
 }

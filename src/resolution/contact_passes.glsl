@@ -3,7 +3,7 @@
 //   uint slot_of(uint body), where a body's velocity is found
 //   BodyVelocity load_velocity(uint slot)
 //   void store_velocity(uint slot, BodyVelocity velocity)
-//   BodyDelta load_delta(uint body)
+//   BodyDelta load_delta(uint body, uint slot)
 //   const bool k_bounces, whether there may be a restitution above 0
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 //   const bool k_multirate_islands, whether a body may have more sub-steps than a contact of it
@@ -81,8 +81,8 @@ vec3 slip_of_target; // m: Slip::apart
 
 PassTarget target_of_pass(uint pass)
 {
-    BodyDelta delta_a = load_delta(body_a);
-    BodyDelta delta_b = load_delta(body_b);
+    BodyDelta delta_a = load_delta(body_a, slot_a);
+    BodyDelta delta_b = load_delta(body_b, slot_b);
     float present_load_speed = load_speed_so_far(load_speed, rows, impulses);
     Substep substep = make_substep(substeps, is_against_static(traits), present_load_speed, parameters);
     PassTarget target;
@@ -142,8 +142,8 @@ vec3 falling_acceleration_of(uint body, BodyVelocity velocity)
 // Instead of the pass that has found the hit, whose result was not put back.
 ManifoldState pass_over_hit(uint index, float old_share)
 {
-    BodyDelta delta_a = shifted(load_delta(body_a), load_warm_start(body_a));
-    BodyDelta delta_b = shifted(load_delta(body_b), load_warm_start(body_b));
+    BodyDelta delta_a = shifted(load_delta(body_a, slot_a), load_warm_start(body_a));
+    BodyDelta delta_b = shifted(load_delta(body_b, slot_b), load_warm_start(body_b));
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);

@@ -23,8 +23,8 @@ layout(std430) buffer Counters { uint counters[]; };
 
 uint slot_of(uint body) { return body; }
 BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
-BodyDelta load_delta(uint body) { return unpack(deltas[body]); }
-void store_delta(uint body, BodyDelta delta) { deltas[body] = pack(delta); }
+BodyDelta load_delta(uint body, uint slot) { return unpack(deltas[body]); }
+void store_delta(uint body, uint slot, BodyDelta delta) { deltas[body] = pack(delta); }
 BodyWarmStart load_warm_start(uint body) { return unpack(warm_starts[body]); }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 

@@ -31,7 +31,7 @@ void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(
 
 #include "resolution/stored_deltas.glsl"
 
-BodyDelta load_delta(uint body) { return load_stored_delta(body); }
+BodyDelta load_delta(uint body, uint slot) { return load_stored_delta(body); }
 
 const bool k_bounces = !k_hubs;
 const bool k_multirate_islands = true;

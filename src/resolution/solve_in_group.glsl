@@ -4,8 +4,9 @@
 // Before this file the kernel gives its number of invocations, declares Islands, and defines
 //   const bool k_bounces, as for contact_passes.glsl
 //   const uint k_room, the bodies that there is room for
-//   const bool k_deltas_have_room, whether their movements lie in shared memory, too
-//   uint slot_of(uint body), the body's place there; k_room if it is one that nothing moves
+//   const uint k_places, in shared memory, each for the velocity or the movement of a body
+//   uint slots, that are in use: one for each body, and the first one for all that nothing moves
+//   uint slot_of(uint body)
 //   const uint k_own_bodies, the most that an invocation has, and uint own_body(uint i), k_none for no body
 //   const bool k_one_island, whether the group has one island and not several
 // Reads: Islands, ManifoldKeys, Counters, Constraints, Inertias, Properties, Loads.
@@ -15,63 +16,62 @@ layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 
-shared vec4 linear_and_inverse_mass[k_room + 1u];
-shared float angular[3u * (k_room + 1u)];
+// The velocities by slot; then the movements, if there are places for both. Else these are in their buffer.
+shared vec4 fours[k_places];         // linear part and inverse mass, or rotation
+shared float threes[3u * k_places];  // angular part, or position
 shared uint most_substeps;
 shared uint search_bounds[2];
 // Where the group's manifolds of each colour begin; the overflow set last.
 shared uint colour_offsets[k_colour_offsets];
 
+vec3 three_at(uint place) { return vec3(threes[3u * place], threes[3u * place + 1u], threes[3u * place + 2u]); }
+
+void put(uint place, vec4 four, vec3 three)
+{
+    fours[place] = four;
+    threes[3u * place] = three.x;
+    threes[3u * place + 1u] = three.y;
+    threes[3u * place + 2u] = three.z;
+}
+
 BodyVelocity load_velocity(uint slot)
 {
+    vec4 four = fours[slot];
     BodyVelocity velocity;
-    velocity.linear = linear_and_inverse_mass[slot].xyz;
-    velocity.inverse_mass = linear_and_inverse_mass[slot].w;
-    velocity.angular = vec3(angular[3u * slot], angular[3u * slot + 1u], angular[3u * slot + 2u]);
+    velocity.linear = four.xyz;
+    velocity.inverse_mass = four.w;
+    velocity.angular = three_at(slot);
     velocity.stamp = 0u;
     return velocity;
 }
 
 void store_velocity(uint slot, BodyVelocity velocity)
 {
-    linear_and_inverse_mass[slot] = vec4(velocity.linear, velocity.inverse_mass);
-    angular[3u * slot] = velocity.angular.x;
-    angular[3u * slot + 1u] = velocity.angular.y;
-    angular[3u * slot + 2u] = velocity.angular.z;
+    put(slot, vec4(velocity.linear, velocity.inverse_mass), velocity.angular);
 }
 
 const bool k_multirate_islands = false; // they are too large
 
 #include "resolution/stored_deltas.glsl"
 
-const uint k_delta_room = k_deltas_have_room ? k_room + 1u : 1u;
-shared vec4 delta_rotations[k_delta_room];
-shared float delta_positions[3u * k_delta_room];
+bool deltas_have_places() { return 2u * slots <= k_places; }
 
-BodyDelta load_delta(uint body)
+BodyDelta load_delta(uint body, uint slot)
 {
-    if (!k_deltas_have_room) return load_stored_delta(body);
-    uint slot = slot_of(body);
+    if (!deltas_have_places()) return load_stored_delta(body);
     BodyDelta delta;
-    delta.position =
-        vec3(delta_positions[3u * slot], delta_positions[3u * slot + 1u], delta_positions[3u * slot + 2u]);
+    delta.position = three_at(slots + slot);
     delta.reserved = 0.0;
-    delta.rotation = delta_rotations[slot];
+    delta.rotation = fours[slots + slot];
     return delta;
 }
 
-void put_delta(uint slot, BodyDelta delta)
-{
-    delta_positions[3u * slot] = delta.position.x;
-    delta_positions[3u * slot + 1u] = delta.position.y;
-    delta_positions[3u * slot + 2u] = delta.position.z;
-    delta_rotations[slot] = delta.rotation;
-}
+void put_delta(uint slot, BodyDelta delta) { put(slots + slot, delta.rotation, delta.position); }
 
-void store_delta(uint body, BodyDelta delta)
+void store_delta(uint body, uint slot, BodyDelta delta)
 {
-    if (k_deltas_have_room)
-        put_delta(slot_of(body), delta);
+    if (deltas_have_places())
+        put_delta(slot, delta);
     else
         store_stored_delta(body, delta);
 }
@@ -175,8 +175,8 @@ void solve_group(uint group)
     if (me == 0u) {
         most_substeps = 0u;
         has_given_up = 0u;
-        store_velocity(k_room, frozen_velocity());
-        if (k_deltas_have_room) put_delta(k_room, no_delta());
+        store_velocity(0u, frozen_velocity());
+        if (deltas_have_places()) put_delta(0u, no_delta());
     }
     barrier();
     own_bodies = 0u;
@@ -184,9 +184,10 @@ void solve_group(uint group)
         uint body = own_body(i);
         if (body == k_none) continue;
         own_bodies |= 1u << i;
-        begin_turns(slot_of(body));
-        store_velocity(slot_of(body), unpack(velocities[body]));
-        if (k_deltas_have_room) put_delta(slot_of(body), no_delta());
+        uint slot = slot_of(body);
+        begin_turns(slot);
+        store_velocity(slot, unpack(velocities[body]));
+        if (deltas_have_places()) put_delta(slot, no_delta());
         atomicMax(most_substeps, unpack(inertias[body]).substeps);
     }
     barrier();
@@ -198,7 +199,8 @@ void solve_group(uint group)
     for (uint i = 0u; own_bodies >> i != 0u; ++i) {
         if (((own_bodies >> i) & 1u) == 0u) continue;
         uint body = own_body(i);
-        velocities[body] = pack(load_velocity(slot_of(body)));
-        if (k_deltas_have_room) store_stored_delta(body, load_delta(body));
+        uint slot = slot_of(body);
+        velocities[body] = pack(load_velocity(slot));
+        if (deltas_have_places()) store_stored_delta(body, load_delta(body, slot));
     }
 }

@@ -27,7 +27,7 @@ void give_up()
 #include "resolution/waits.glsl"
 
 // Of each body, as number_after says. All of its contacts have a sub-step whenever one has.
-shared uint turns[k_waits_freely ? k_room + 1u : 1u]; // where there are 32 KB for a group it would not fit
+shared uint turns[k_waits_freely ? k_room + 1u : 1u]; // where there are 32 KB for a group they would not fit
 
 void begin_turns(uint slot)
 {

@@ -26,8 +26,9 @@ layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
 uint first_place() { return group_index() * k_group_window; }
 
 const uint k_room = k_group_room;
-const bool k_deltas_have_room = true;
-uint slot_of(uint body) { return min(island_places[body] - first_place(), k_room); } // k_none is beyond all places
+const uint slots = k_room + 1u;
+const uint k_places = 2u * slots;
+uint slot_of(uint body) { return slot_at(island_places[body], first_place(), k_room); }
 
 const uint k_own_bodies = k_group_room / gl_WorkGroupSize.x;
 uint own_body(uint i)

@@ -22,8 +22,9 @@ layout(local_size_x = 384) in; // most islands have no more manifolds; with more
 layout(std430) readonly buffer Islands { uint islands[]; };
 
 const uint k_room = k_island_bodies;
-const bool k_deltas_have_room = false; // all drivers have 32 KB, and velocities take 28
-uint slot_of(uint body) { return islands[body] == k_none ? k_room : body; }
+const uint k_places = k_waits_freely ? k_places_to_wait : k_room + 1u; // all drivers have 32 KB, and these take 28
+uint slots;
+uint slot_of(uint body) { return islands[body] == k_none ? 0u : body + 1u; }
 
 const uint k_own_bodies = (k_island_bodies + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
 uint own_body(uint i)
@@ -39,5 +40,6 @@ const bool k_one_island = true;
 void main()
 {
     uint island = group_index();
+    slots = parameters.body_count + 1u;
     if (islands[island] == island) solve_group(island);
 }

@@ -48,8 +48,8 @@ BodyVelocity load_velocity(uint body); // see solve_in_order.glsl
 
 #include "resolution/stored_deltas.glsl"
 
-BodyDelta load_delta(uint body) { return load_stored_delta(body); }
-void store_delta(uint body, BodyDelta delta) { store_stored_delta(body, delta); }
+BodyDelta load_delta(uint body, uint slot) { return load_stored_delta(body); }
+void store_delta(uint body, uint slot, BodyDelta delta) { store_stored_delta(body, delta); }
 
 const bool k_bounces = false;
 const bool k_hubs = true;

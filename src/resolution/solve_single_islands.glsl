@@ -2,7 +2,7 @@
 // One group is an island of a large world that has more bodies than several could share a group. There is a group for
 // each number that an island may have (island.shared.glsl); those with no island of this kind end at once.
 // Before this file the kernel defines k_bounces, as for contact_passes.glsl.
-// Reads: IslandBodies, IslandPlaces, IslandGroups, IslandStarts; for what else it reads and writes see solve_in_group.glsl.
+// Reads: IslandBodies, IslandPlaces, IslandGroups, IslandSizes, IslandStarts; for what else it reads and writes see solve_in_group.glsl.
 // Needs: a barrier after prepare_contacts.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -24,13 +24,15 @@ layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer IslandBodies { uint island_bodies[]; };
 layout(std430) readonly buffer IslandPlaces { uint island_places[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
+layout(std430) readonly buffer IslandSizes { uint island_sizes[]; };
 layout(std430) readonly buffer IslandStarts { uint island_starts[]; };
 
 uint first_place; // of the island's bodies
 
 const uint k_room = k_most_single;
-const bool k_deltas_have_room = false; // as in solve_islands
-uint slot_of(uint body) { return min(island_places[body] - first_place, k_room); } // k_none is beyond all places
+const uint k_places = k_waits_freely ? k_places_to_wait : k_room + 1u; // as in solve_islands
+uint slots;
+uint slot_of(uint body) { return slot_at(island_places[body], first_place, k_room); }
 
 uint body_at(uint place)
 {
@@ -56,5 +58,6 @@ void main()
     uint body = body_at(group_index() * k_group_window);
     if (body == k_none) return;
     first_place = island_starts[islands[body]];
+    slots = island_size(island_sizes[islands[body]]) + 1u;
     solve_group(group_index() + 1u);
 }

@@ -55,9 +55,9 @@ std::optional<uint> resident_groups_of_environment() {
 }
 
 /// Of a kernel that solves islands, with k_waits_freely: what it keeps of a body, and some more.
-constexpr int k_shared_bytes_to_wait = 36 * 1024;
-static_assert(k_shared_bytes_to_wait >= (k_island_bodies + 1) * 32 + 2048 &&
-              k_shared_bytes_to_wait >= (k_most_single + 1) * 32 + 2048);
+constexpr int k_shared_bytes_to_wait = 44 * 1024;
+static_assert(k_shared_bytes_to_wait >= k_places_to_wait * 28 + (k_island_bodies + 1) * 4 + 2048 &&
+              k_most_single <= k_island_bodies);
 
 } // namespace
 

@@ -18,7 +18,7 @@ struct ShaderFile {
 /// What a kernel may rely on where it runs; each is a constant at its head.
 struct KernelTarget {
     /// k_waits_freely: invocations of a work group run side by side, so that they may wait for each other without a
-    /// barrier, and a group may have 36 KB of shared memory.
+    /// barrier, and a group may have 44 KB of shared memory.
     bool waits_freely = false;
     unsigned in_step = 64; ///< k_in_step: so many invocations next to each other run in step, or a divisor of it
 };
