@@ -38,7 +38,7 @@ void hand_over_manifolds(Device& from, Device& to) {
                              take(to, BufferId::Dispatches, k_dispatch_count)};
     from.read(control);
     const uint pair_count = counter(to, k_counter_pair_count);
-    const std::array manifolds{take(to, BufferId::Manifolds, pair_count),
+    const std::array manifolds{take(to, BufferId::Manifolds, pair_count), take(to, BufferId::PointImpulses, pair_count),
                                take(to, BufferId::ManifoldPoints, std::size_t{4} * pair_count)};
     from.read(manifolds);
 }
@@ -47,6 +47,7 @@ void hand_over_impulses(Device& from, Device& to) {
     if (counter(from, k_counter_did_not_fit) != 0) return; // the old ones are still wanted
     const uint pair_count = counter(from, k_counter_old_pair_count);
     lend(from, to, BufferId::OldManifolds, pair_count);
+    lend(from, to, BufferId::OldPointImpulses, pair_count);
     lend(from, to, BufferId::OldManifoldPoints, std::size_t{4} * pair_count);
 }
 

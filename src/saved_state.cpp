@@ -10,20 +10,21 @@
 
 namespace talus::engine {
 
-static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 12,
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 13,
               "another buffer survives the step: snapshots have to hold it too");
 
 std::size_t SavedState::bytes() const {
     std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
-                      impulses.size() * sizeof(float) + contact_states.size() * sizeof(uint) +
-                      rests.size() * sizeof(BodyRest) + boxes.size() * sizeof(OrientedBox);
+                      next_impulses.size() * sizeof(NormalImpulses) + impulses.size() * sizeof(float) +
+                      contact_states.size() * sizeof(uint) + rests.size() * sizeof(BodyRest) +
+                      boxes.size() * sizeof(OrientedBox);
     BodyTable::visit_lists(table, [&](const auto& list) { sum += list.size() * sizeof list[0]; });
     return sum;
 }
 
 SavedState save_state(Simulation& simulation, const BodyTable& table, const Settings& settings) {
     ContactRecords contacts = read_contacts(simulation);
-    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}, {}, {}};
+    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}, {}, {}, {}};
     if (simulation.watches_contacts()) {
         saved.contact_states.resize(contacts.manifolds.size());
         simulation.state_device().read(std::array{ReadRequest{
@@ -53,6 +54,7 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
         }
     }
     saved.manifolds = std::move(contacts.manifolds);
+    saved.next_impulses = std::move(contacts.next);
     return saved;
 }
 
@@ -88,6 +90,7 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::Pairs, pairs);
     write_all(BufferId::OldManifolds, saved.manifolds);
     write_all(BufferId::OldManifoldPoints, points);
+    write_all(BufferId::OldPointImpulses, saved.next_impulses);
     write_all(BufferId::Constraints, constraints);
     write_all(BufferId::Counters, saved.counters);
     write_all(BufferId::Rests, saved.rests);

@@ -18,12 +18,13 @@ struct SavedState {
     StepReport report;
     BodyTable table; ///< with the poses and velocities of the report's step, and the caller's changes since
     std::array<uint, k_counter_words> counters{};
-    std::vector<Manifold> manifolds;   ///< one a pair
-    std::vector<ManifoldPoint> points; ///< of the manifolds in turn, as many as each has
-    std::vector<float> impulses;       ///< N·s along the normal, one a point: of the whole step, hits included
-    std::vector<uint> contact_states;  ///< k_contact_*, one a pair; empty where no contacts were watched
-    std::vector<BodyRest> rests;       ///< one a body slot; empty where nothing may sleep
-    std::vector<OrientedBox> boxes;    ///< one a body slot of the last search for pairs
+    std::vector<Manifold> manifolds;           ///< one a pair
+    std::vector<ManifoldPoint> points;         ///< of the manifolds in turn, as many as each has
+    std::vector<NormalImpulses> next_impulses; ///< one a manifold: what the next step starts from
+    std::vector<float> impulses;               ///< N·s along the normal, one a point: of the whole step, hits included
+    std::vector<uint> contact_states;          ///< k_contact_*, one a pair; empty where no contacts were watched
+    std::vector<BodyRest> rests;               ///< one a body slot; empty where nothing may sleep
+    std::vector<OrientedBox> boxes;            ///< one a body slot of the last search for pairs
 
     std::size_t bytes() const;
 };

@@ -51,8 +51,8 @@ constexpr std::array k_body_buffers{
 };
 
 constexpr std::array k_pair_buffers{
-    BufferId::Pairs,      BufferId::OldManifolds, BufferId::Manifolds,
-    BufferId::Uncoloured, BufferId::ManifoldKeys, BufferId::ManifoldOrder,
+    BufferId::Pairs,         BufferId::OldManifolds, BufferId::OldPointImpulses, BufferId::Manifolds,
+    BufferId::PointImpulses, BufferId::Uncoloured,   BufferId::ManifoldKeys,     BufferId::ManifoldOrder,
 };
 
 constexpr std::array k_point_buffers{

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 11;
+constexpr std::uint32_t k_version = 12;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
@@ -120,6 +120,7 @@ template <typename File, typename State> void visit(File& file, State& state) {
     BodyTable::visit_lists(state.table, [&](auto& list) { file.list(list); });
     file.list(state.manifolds);
     file.list(state.points);
+    file.list(state.next_impulses);
     file.list(state.impulses);
     file.list(state.contact_states);
     file.list(state.rests);
@@ -155,6 +156,8 @@ void check(SavedState& state) {
     const auto& counters = state.counters;
     if (state.points.size() != point_count || state.impulses.size() != point_count)
         throw Error("it has not as many points as its manifolds say");
+    if (state.next_impulses.size() != state.manifolds.size())
+        throw Error("it has not as many records of impulses as manifolds");
     if (report.pairs != state.manifolds.size() || report.manifolds != touching || report.contacts != solved_count ||
         (!state.contact_states.empty() && state.contact_states.size() != report.pairs) ||
         (!state.rests.empty() && state.rests.size() != slots) || counters[k_counter_did_not_fit] != 0 ||

@@ -25,15 +25,15 @@ ContactRecords read_contacts(Simulation& simulation) {
     simulation.settle();
     const std::size_t pair_count = simulation.report().pairs;
     ContactRecords contacts{std::vector<Manifold>(pair_count), std::vector<ManifoldPoint>(4 * pair_count),
-                            std::vector<float>(4 * pair_count)};
+                            std::vector<NormalImpulses>(pair_count), std::vector<float>(4 * pair_count)};
     std::vector<ContactConstraint> constraints(simulation.solved_manifolds());
     // The step's end has made its manifolds the old ones. Their impulses are what the next step starts from; those of
     // this one are still with the constraints, but for what sleeps.
-    simulation.state_device().read(std::array{read_into(BufferId::OldManifolds, contacts.manifolds),
-                                              read_into(BufferId::OldManifoldPoints, contacts.points),
-                                              read_into(BufferId::Constraints, constraints)});
+    simulation.state_device().read(std::array{
+        read_into(BufferId::OldManifolds, contacts.manifolds), read_into(BufferId::OldManifoldPoints, contacts.points),
+        read_into(BufferId::OldPointImpulses, contacts.next), read_into(BufferId::Constraints, constraints)});
     for (std::size_t i = 0; i < contacts.points.size(); ++i)
-        contacts.impulses[i] = contacts.points[i].normal_impulse;
+        contacts.impulses[i] = contacts.next[i / 4].normal[static_cast<int>(i % 4)];
     for (const ContactConstraint& c : constraints) {
         const vec4 impulses = impulses_in_step(c);
         for (int i = 0; i < 4; ++i)

@@ -541,6 +541,7 @@ GlBuffers World::gl_buffers() const {
     names.pairs = device.gl_name(BufferId::Pairs);
     names.manifolds = device.gl_name(BufferId::OldManifolds);
     names.contact_points = device.gl_name(BufferId::OldManifoldPoints);
+    names.point_impulses = device.gl_name(BufferId::OldPointImpulses);
     names.counters = device.gl_name(BufferId::Counters);
     names.body_capacity = impl_->table.slot_count();
     names.pair_capacity = impl_->simulation.report().pairs;

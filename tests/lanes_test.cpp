@@ -85,6 +85,7 @@ struct Items {
 
     float number(float size) { return std::uniform_real_distribution<float>(-size, size)(random); }
     vec3 vector(float size) { return {number(size), number(size), number(size)}; }
+    vec4 vector4(float size) { return {number(size), number(size), number(size), number(size)}; }
 
     void add_body(uint i) {
         const bool is_static = i == k_static_body;
@@ -331,10 +332,12 @@ ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contac
     for (uint i = 0; i < manifold.point_count; ++i)
         c = add_to_centre(c, points[i]);
     c = end_centre(c, state.poses[manifold.body_a].position, state.poses[manifold.body_b].position);
+    const vec4& impulses = state.point_impulses[contact.manifold].normal;
     const Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     for (uint i = 0; i < manifold.point_count; ++i)
-        c = add_point(c, static_cast<int>(i), points[i], meeting, respond_to_normals(meeting));
+        c = add_point(c, static_cast<int>(i), points[i], impulses[static_cast<int>(i)], meeting,
+                      respond_to_normals(meeting));
     const float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
     c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts),
                                           c.traits, state.parameters);
@@ -347,6 +350,7 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
     items.inertias[Items::k_hub].traits |= k_trait_hub;
     std::vector<Manifold> manifolds;
     std::vector<ManifoldPoint> points;
+    std::vector<NormalImpulses> impulses;
     std::vector<ContactToPrepare> contacts;
     for (uint i = 0; i < Items::k_count; ++i) {
         const ContactConstraint& c = items.constraints[i];
@@ -357,7 +361,8 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
                              make_demand(8, 0, 1 + i % 5)});
         for (uint k = 0; k < 4; ++k) // those that are not there may be anything
             points.push_back({items.vector(0.5f), k < point_count ? items.number(0.02f) : NAN, items.vector(0.5f), k,
-                              items.vector(5.0f), items.number(1.0f) + 1.0f});
+                              items.vector(5.0f), 0.0f});
+        impulses.push_back({items.vector4(1.0f) + 1.0f});
         const bool of_hub = c.body_a == Items::k_hub || c.body_b == Items::k_hub;
         const uint order = i % 3 << k_earlier_of_a | i % 5 << k_earlier_of_b | i % 2 << k_last_of_b;
         contacts.push_back({i, i, of_hub && i % 2 == 0 ? k_first_hub_colour : i % 3, order, of_hub ? 0.125f : 1.0f});
@@ -371,6 +376,7 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
         CpuState state = items.state();
         state.manifolds = {manifolds.data(), manifolds.size()};
         state.manifold_points = {points.data(), points.size()};
+        state.point_impulses = {impulses.data(), impulses.size()};
         state.constraints = {made.data(), made.size()};
         state.told_loads = {told.data(), told.size()};
         for (uint first = 0; first < Items::k_count;) { // parts of every size

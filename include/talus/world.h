@@ -73,6 +73,7 @@ struct GlBuffers {
     std::uint32_t pairs = 0;
     std::uint32_t manifolds = 0;      ///< 64 bytes a pair, see Manifold in src/state/records.shared.glsl
     std::uint32_t contact_points = 0; ///< four of 48 bytes a pair, see ManifoldPoint in the same file
+    std::uint32_t point_impulses = 0; ///< 16 bytes a pair, see NormalImpulses in the same file
     std::uint32_t counters = 0;       ///< words, see k_counter_* in src/state/constants.shared.glsl
     std::uint32_t body_capacity = 0;  ///< instances to draw; unused ones have the kind 255
     std::uint32_t pair_capacity = 0;  ///< pairs of the last step

@@ -18,13 +18,15 @@ static void report_contacts_on_cpu(CpuState& state, const Launch& launch) {
         const bool asleep =
             is_active(manifold) && (is_asleep(state.poses[manifold.body_a]) || is_asleep(state.poses[manifold.body_b]));
         vec4 impulse(0.0f);
-        if (is_active(manifold) && !asleep) impulse = state.contact_impulses[pair].normal_impulse;
+        if (asleep)
+            impulse = state.point_impulses[pair].normal;
+        else if (is_active(manifold))
+            impulse = state.contact_impulses[pair].normal_impulse;
         ContactReport report = make_report(manifold, touched ? k_phase_persist : k_phase_begin);
         bool touches = asleep && touched;
         for (uint i = 0; i < manifold.point_count; ++i) {
             const ManifoldPoint& point = state.manifold_points[std::size_t{4} * pair + i];
-            float& along_normal = impulse[static_cast<int>(i)];
-            if (asleep) along_normal = point.normal_impulse;
+            const float along_normal = impulse[static_cast<int>(i)];
             touches = touches || touches_at(point.separation, along_normal, touched);
             report = add_point(report, static_cast<int>(i), point, along_normal);
         }

@@ -2,8 +2,8 @@
 // One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3). Of a pair in
 // which a body sleeps and nothing moves it is the last step's.
 // Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds,
-// OldManifoldPoints.
-// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints; Counters, where two
+// OldManifoldPoints, OldPointImpulses.
+// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints, PointImpulses; Counters, where two
 // bodies touch that did not in the last step, or touch no longer, by which the constraint graph is another one, and where
 // they touch at fewer or more points.
 // Needs: barriers after plan_pairs and fill_pair_table.
@@ -35,8 +35,10 @@ layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer PairTable { uint pair_table[]; };
 layout(std430) readonly buffer OldManifolds { ManifoldCells old_manifolds[]; };
 layout(std430) readonly buffer OldManifoldPoints { ManifoldPointCells old_manifold_points[]; };
+layout(std430) readonly buffer OldPointImpulses { NormalImpulsesCells old_point_impulses[]; };
 layout(std430) writeonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
+layout(std430) writeonly buffer PointImpulses { NormalImpulsesCells point_impulses[]; };
 
 #include "broad_phase/box_now.glsl"
 #include "narrow_phase/find_old_manifold.glsl"
@@ -45,11 +47,12 @@ layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_poi
 Carriers read_carriers(uint old_index)
 {
     Manifold old = unpack(old_manifolds[old_index]);
+    vec4 impulses = unpack(old_point_impulses[old_index]).normal;
     Carriers carriers;
     carriers.axis = old.axis;
     for (uint i = 0u; i < 4u; ++i) {
         ManifoldPoint point = unpack(old_manifold_points[4u * old_index + i]);
-        carriers.features[i] = i < old.point_count && point.normal_impulse > 0.0 ? point.feature_id : k_none;
+        carriers.features[i] = i < old.point_count && impulses[i] > 0.0 ? point.feature_id : k_none;
     }
     return carriers;
 }
@@ -60,11 +63,12 @@ OldPoints read_old_points(uint old_index)
     OldPoints points;
     points.axis = old.axis;
     points.count = old.point_count;
+    vec4 impulses = unpack(old_point_impulses[old_index]).normal;
     for (uint i = 0u; i < 4u; ++i) {
         ManifoldPoint point = unpack(old_manifold_points[4u * old_index + i]);
         points.anchors[i] = point.anchor_a;
         points.features[i] = point.feature_id;
-        points.impulses[i] = point.normal_impulse;
+        points.impulses[i] = impulses[i];
     }
     return points;
 }
@@ -78,13 +82,27 @@ bool sleeps(uint body_a, uint body_b)
            is_left_alone(pose_b, unpack(velocities[body_b]), unpack(shapes[body_b]));
 }
 
+void put_impulses(uint pair_index, vec4 normal)
+{
+    NormalImpulses impulses;
+    impulses.normal = normal;
+    point_impulses[pair_index] = pack(impulses);
+}
+
+void put_none(uint pair_index, Pair pair)
+{
+    manifolds[pair_index] = pack(no_manifold(pair));
+    put_impulses(pair_index, vec4(0.0));
+}
+
 void keep_manifold(uint pair_index, Pair pair, uint old_index)
 {
     if (old_index == k_none) { // they were apart
-        manifolds[pair_index] = pack(no_manifold(pair));
+        put_none(pair_index, pair);
         return;
     }
     manifolds[pair_index] = old_manifolds[old_index];
+    point_impulses[pair_index] = old_point_impulses[old_index];
     uint count = unpack(old_manifolds[old_index]).point_count;
     for (uint i = 0u; i < 4u; ++i) {
         if (i < count) manifold_points[4u * pair_index + i] = old_manifold_points[4u * old_index + i];
@@ -122,9 +140,8 @@ void main()
     if (pair_index >= counters[k_counter_pair_count]) return;
     Pair pair = pairs[pair_index];
     if (!is_near(pair)) {
-        Manifold none = no_manifold(pair);
-        manifolds[pair_index] = pack(none);
-        compare_with_last(pair_index, none);
+        put_none(pair_index, pair);
+        compare_with_last(pair_index, no_manifold(pair));
         return;
     }
     uint old_index = old_manifold_of(pair_index, pair);
@@ -162,9 +179,10 @@ void main()
         impulses = vec4(0.0);
     }
     manifolds[pair_index] = pack(manifold);
+    put_impulses(pair_index, impulses);
     compare_with_last(pair_index, manifold);
     for (uint i = 0u; i < 4u; ++i) {
         if (i < g.count)
-            manifold_points[4u * pair_index + i] = pack(make_point(g, pose_a.position, offset, i, impulses[i]));
+            manifold_points[4u * pair_index + i] = pack(make_point(g, pose_a.position, offset, i));
     }
 }

@@ -18,10 +18,11 @@ namespace {
 Carriers read_carriers(const CpuState& state, uint old_index) {
     const Manifold& manifold = state.old_manifolds[old_index];
     const ManifoldPoint* const points = &state.old_manifold_points[std::size_t{4} * old_index];
+    const vec4& impulses = state.old_point_impulses[old_index].normal;
     Carriers carriers = no_carriers();
     carriers.axis = manifold.axis;
     for (uint i = 0; i < manifold.point_count; ++i)
-        if (points[i].normal_impulse > 0.0f) carriers.features[i] = points[i].feature_id;
+        if (impulses[static_cast<int>(i)] > 0.0f) carriers.features[i] = points[i].feature_id;
     return carriers;
 }
 
@@ -34,7 +35,7 @@ OldPoints read_old_points(const CpuState& state, uint old_index) {
     for (uint i = 0; i < old.count; ++i) {
         old.anchors[i] = points[i].anchor_a;
         old.features[i] = points[i].feature_id;
-        old.impulses[i] = points[i].normal_impulse;
+        old.impulses[i] = state.old_point_impulses[old_index].normal[static_cast<int>(i)];
     }
     return old;
 }
@@ -47,12 +48,18 @@ bool sleeps(const CpuState& state, const Pair& pair) {
            is_left_alone(pair.body_b);
 }
 
+void put_none(CpuState& state, uint pair_index) {
+    state.manifolds[pair_index] = no_manifold(state.pairs[pair_index]);
+    state.point_impulses[pair_index] = {vec4(0.0f)};
+}
+
 void keep_manifold(CpuState& state, uint pair_index, uint old_index) {
     if (old_index == k_none) { // they were apart
-        state.manifolds[pair_index] = no_manifold(state.pairs[pair_index]);
+        put_none(state, pair_index);
         return;
     }
     state.manifolds[pair_index] = state.old_manifolds[old_index];
+    state.point_impulses[pair_index] = state.old_point_impulses[old_index];
     std::copy_n(&state.old_manifold_points[std::size_t{4} * old_index], state.old_manifolds[old_index].point_count,
                 &state.manifold_points[std::size_t{4} * pair_index]);
 }
@@ -116,9 +123,9 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
         impulses = vec4(0.0f);
     }
     state.manifolds[in_hand.index] = manifold;
+    state.point_impulses[in_hand.index] = {impulses};
     for (uint i = 0; i < g.count; ++i)
-        state.manifold_points[std::size_t{4} * in_hand.index + i] =
-            make_point(g, pose_a.position, offset, i, impulses[static_cast<int>(i)]);
+        state.manifold_points[std::size_t{4} * in_hand.index + i] = make_point(g, pose_a.position, offset, i);
 }
 
 constexpr uint k_part = 32; // pairs that a thread treats together
@@ -129,7 +136,7 @@ uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::a
     for (uint index = first; index < end; ++index) {
         const Pair pair = state.pairs[index];
         if (!is_near(state, pair)) {
-            state.manifolds[index] = no_manifold(pair);
+            put_none(state, index);
             continue;
         }
         const uint old_index = old_manifold_of(state, index, same_pairs);

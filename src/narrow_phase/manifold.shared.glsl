@@ -145,7 +145,7 @@ inline vec4 carry_impulses(ContactGeometry g, OldPoints old)
 }
 
 // Point i of the new manifold; `offset` leads from A's centre to B's at the start of the step.
-inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, uint i, float impulse)
+inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, uint i)
 {
     precise vec3 anchor_b = g.points[i] - (offset + g.shift);
     precise vec3 position = centre_a + g.points[i];
@@ -155,7 +155,7 @@ inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, u
     point.anchor_b = anchor_b;
     point.feature_id = g.features[i];
     point.position = position;
-    point.normal_impulse = impulse;
+    point.reserved = 0.0f;
     return point;
 }
 

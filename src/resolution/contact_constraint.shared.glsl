@@ -98,13 +98,14 @@ inline ContactConstraint end_centre(ContactConstraint c, vec3 position_a, vec3 p
     return c;
 }
 
-// Point i of the manifold. `r`: of the meeting.
-inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint point, Meeting m, NormalResponse r)
+// Point i of the manifold, which starts from `normal_impulse`. `r`: of the meeting.
+inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint point, float normal_impulse, Meeting m,
+                                   NormalResponse r)
 {
     precise vec3 arm = point.anchor_a - c.centre_a;
     precise vec3 apart = c.centre_b - c.centre_a;
     precise float base = point.separation - dot3(apart, c.normal);
-    precise float impulse = point.normal_impulse * reciprocal(float(substeps_of_contact(c.counts)));
+    precise float impulse = normal_impulse * reciprocal(float(substeps_of_contact(c.counts)));
     float x = dot3(arm, m.frame.x);
     float y = dot3(arm, m.frame.y);
     precise float square = x * x + y * y;
@@ -114,7 +115,7 @@ inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint poi
     c.base_separation[i] = base;
     c.normal_mass[i] = point_mass(r, x, y);
     c.normal_impulse[i] = impulse;
-    precise float load_speed = c.load_speed + point.normal_impulse * m.inverse_masses;
+    precise float load_speed = c.load_speed + normal_impulse * m.inverse_masses;
     c.load_speed = load_speed;
     return c;
 }

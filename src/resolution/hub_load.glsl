@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The hub that a manifold is an edge of, and the load on it. The kernel declares BodyColours before this file. The CPU's
 // counterpart is hub_load.h.
-// Reads: ManifoldPoints, BodyColours.
+// Reads: PointImpulses, BodyColours.
 
-layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
+layout(std430) readonly buffer PointImpulses { NormalImpulsesCells point_impulses[]; };
 
 bool is_found_hub(uint body) { return body_colours[body_word(body, k_hub_word)] != 0u; }
 
@@ -18,9 +18,10 @@ uint hub_of(Manifold manifold)
 // What its points carried in the last step (N s).
 float load_on(uint pair, uint point_count)
 {
+    vec4 impulses = unpack(point_impulses[pair]).normal;
     precise float sum = 0.0;
-    for (uint i = 0u; i < point_count; ++i)
-        sum = sum + uintBitsToFloat(manifold_points[4u * pair + i].cell_2.w); // its normal_impulse
+    for (uint i = 0u; i < 4u; ++i)
+        sum = i < point_count ? sum + impulses[i] : sum;
     return sum;
 }
 

@@ -18,8 +18,8 @@ inline uint hub_of(const CpuState& state, const Manifold& manifold) {
 /// What its points carried in the last step (N s).
 inline float load_on(const CpuState& state, uint pair) {
     float sum = 0.0f;
-    for (uint i = 0; i < state.manifolds[pair].point_count; ++i)
-        sum += state.manifold_points[std::size_t{4} * pair + i].normal_impulse;
+    for (int i = 0; i < static_cast<int>(state.manifolds[pair].point_count); ++i)
+        sum += state.point_impulses[pair].normal[i];
     return sum;
 }
 

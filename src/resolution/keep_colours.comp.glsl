@@ -3,7 +3,7 @@
 // is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's. One
 // that has kept a colour far down is listed too: assign_colours sees whether it needs that, and counts it.
 // Also counts manifolds and contact points, each group its own first.
-// Reads: Manifolds, ManifoldPoints, Shapes.
+// Reads: Manifolds, PointImpulses, Shapes.
 // Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
 // Counters. The order of the list depends on who comes first; nothing that is made from it does.
 // Needs: a barrier after begin_graph.

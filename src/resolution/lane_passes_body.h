@@ -230,8 +230,12 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     const Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     const NormalResponse response = respond_to_normals(meeting);
+    vec4 impulses = all_of(gather(state.point_impulses.data, manifolds, 0));
     for (std::uint32_t i = 0; i < 4; ++i)
-        c = choose(has_point(i), add_point(c, static_cast<int>(i), points_at(state, points[i]), meeting, response), c);
+        c = choose(has_point(i),
+                   add_point(c, static_cast<int>(i), points_at(state, points[i]), impulses[static_cast<int>(i)],
+                             meeting, response),
+                   c);
     const Lanes force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
     c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts),
                                           c.traits, state.parameters);

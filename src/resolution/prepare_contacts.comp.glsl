@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
 // args.x, args.y: the first pair that is wanted, and how many are.
-// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, BodyColours, Velocities, Inertias.
+// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, PointImpulses, BodyColours, Velocities, Inertias.
 // Writes: Constraints, ToldLoads.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
@@ -31,6 +31,8 @@ layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
+
+layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 
 #include "resolution/hub_load.glsl"
 
@@ -85,9 +87,10 @@ void main()
     Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     NormalResponse response = respond_to_normals(meeting);
+    vec4 impulses = unpack(point_impulses[manifold_index]).normal;
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
-        c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), meeting, response);
+        c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), impulses[i], meeting, response);
     }
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
     c.base_separation =

@@ -3,7 +3,7 @@
 // the caller, find them. The load on it decides how many sub-steps it asks for next.
 // args.x, args.y: the first pair that is wanted, and how many are. args.z: 1 where islands may be multirate.
 // Reads: Counters, Constraints, ManifoldKeys, ManifoldOrder, Properties, ToldLoads.
-// Writes: ManifoldPoints and Manifolds (impulses, colour, load, sub-steps); Counters, where an island may get other sub-steps.
+// Writes: PointImpulses; Manifolds (friction impulses, colour, load, sub-steps); Counters, where an island may get other sub-steps.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -27,7 +27,7 @@ layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer ToldLoads { uint told_loads[]; };
 layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
-layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
+layout(std430) writeonly buffer PointImpulses { NormalImpulsesCells point_impulses[]; };
 
 void main()
 {
@@ -35,18 +35,18 @@ void main()
     if (index >= counters[k_counter_manifold_count]) return;
     if (!is_among(manifold_order[index], args.x, args.y)) return;
     ContactConstraint c = unpack_ContactConstraint(constraints, index);
-    vec4 impulse = vec4(0.0);
+    NormalImpulses impulses;
+    impulses.normal = vec4(0.0);
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= point_count_of(c.counts)) continue;
-        float of_step = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], substeps_of_contact(c.counts));
-        manifold_points[4u * c.manifold + i].cell_2.w = floatBitsToUint(of_step); // its normal_impulse
-        impulse[i] = of_step;
+        impulses.normal[i] = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], substeps_of_contact(c.counts));
     }
+    point_impulses[c.manifold] = pack(impulses);
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
     Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
     uint told = k_told_words * body_above(standing, c.body_a, c.body_b);
-    Manifold finished = finish_manifold(manifold, c, standing, impulse, unpack(properties[c.body_a]).inverse_mass,
+    Manifold finished = finish_manifold(manifold, c, standing, impulses.normal, unpack(properties[c.body_a]).inverse_mass,
                                         unpack(properties[c.body_b]).inverse_mass,
                                         told_loads[told + k_told_mass], told_loads[told + k_told_height], parameters);
     manifolds[c.manifold] = pack(finished);

@@ -14,11 +14,9 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch& launch)
         const ContactConstraint& c = state.constraints[index];
         Manifold& manifold = state.manifolds[c.manifold];
         vec4 impulse(0.0f);
-        ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * c.manifold];
-        for (int i = 0; i < static_cast<int>(point_count_of(c.counts)); ++i) {
+        for (int i = 0; i < static_cast<int>(point_count_of(c.counts)); ++i)
             impulse[i] = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], substeps_of_contact(c.counts));
-            points[i].normal_impulse = impulse[i];
-        }
+        state.point_impulses[c.manifold] = {impulse};
         manifold.colour = colour_of_step(state.manifold_keys[index], c.traits);
         const uint demand = manifold.demand;
         const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);

@@ -3,7 +3,7 @@
 // one beyond all groups. Where the loads would give a contact other colours to choose from, so that it might get another
 // one, the graph is due.
 // args.x: 1 to count how many groups can run at a time instead.
-// Reads: Manifolds, ManifoldPoints, Shapes, Hubs.
+// Reads: Manifolds, PointImpulses, Shapes, Hubs.
 // Writes: BodyColours (loads of hubs), Counters; Uncoloured, as loads_on_pairs, and Arrivals as it goes.
 // Needs: a barrier after collide_pairs; no more groups than can run at a time; arrivals[0] is 0.
 // Overflow: none.

@@ -51,8 +51,10 @@ namespace talus::engine {
     X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
     X(OldManifolds, old_manifolds, Manifold, "uuuufffufffffffu", State)                                                \
     X(OldManifoldPoints, old_manifold_points, ManifoldPoint, "fffffffuffff", State)                                    \
+    X(OldPointImpulses, old_point_impulses, NormalImpulses, "ffff", State)                                             \
     X(Manifolds, manifolds, Manifold, "uuuufffufffffffu", Result)                                                      \
     X(ManifoldPoints, manifold_points, ManifoldPoint, "fffffffuffff", Result)                                          \
+    X(PointImpulses, point_impulses, NormalImpulses, "ffff", Result)                                                   \
     /* resolution */                                                                                                   \
     X(Islands, islands, uint, "u", Result)                                                                             \
     X(Substeps, substeps, uint, "u", Result)                                                                           \

@@ -135,7 +135,12 @@ struct ManifoldPoint {
     vec3 anchor_b;    // m, from B's centre, world axes
     uint feature_id;
     vec3 position;        // m, world: where the point was when it was found, before the bodies moved on
-    float normal_impulse; // N s, over the step
+    float reserved;
+};
+
+// 16 bytes, one a pair: what its points start from in the next step. By themselves, as the solver writes them in an order of its own.
+struct NormalImpulses {
+    vec4 normal; // N s of each point, over the step; 0 where there is none
 };
 
 // 256 bytes, one a manifold, in the order of the solve: all that the solver reads of it. A vec4 holds a number for each
