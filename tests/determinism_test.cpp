@@ -151,6 +151,29 @@ TEST_P(Paths, an_island_may_have_more_manifolds_than_a_group_has_invocations) {
     }
 }
 
+// In shared memory they have room beside the velocities of 511 bodies, or of 681 where contacts of a group wait one by
+// one.
+TEST_P(Paths, a_work_group_gives_the_same_bits_wherever_movements_lie) {
+    Settings settings;
+    settings.substeps = settings.max_substeps = 2;
+    std::vector<BodyDefinition> bodies = bodies_of("pyramid:base=37");
+    for (BodyDefinition& body : bodies)
+        if (body.kind == BodyKind::Rigid) body.velocity.linear = {0.3f, -1.0f, 0.1f};
+    for (const std::size_t count : {682u, 681u, 512u, 511u}) {
+        SCOPED_TRACE(count);
+        bodies.resize(count);
+        EngineRun groups(options_on(GetParam()), bodies, settings), launches(options_on(GetParam()), bodies, settings);
+        groups.simulation.reserve_pairs(4096);
+        launches.simulation.reserve_pairs(4096);
+        for (int i = 0; i < 3; ++i) {
+            groups.step_in_groups(false);
+            launches.step_in_many_launches();
+            ASSERT_TRUE(groups.motion() == launches.motion()) << "step " << i;
+        }
+        EXPECT_GT(groups.counter(engine::k_counter_manifold_count), count);
+    }
+}
+
 /// More than 1,024 bodies: stacks of three that fall over, a pyramid too large for a work group, and boxes in free
 /// fall.
 std::vector<BodyDefinition> many_islands(float restitution) {
