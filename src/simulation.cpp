@@ -30,7 +30,7 @@ constexpr uint k_most_substeps_of_large = 32;
 // Manifolds and iterations an invocation of the persistent launch: with more, launches for each colour are long enough
 // to be worth it, and all in one might be too long for a watchdog.
 constexpr uint k_most_manifolds_each = 96;
-// Bodies an invocation of it, where it had nothing to do of late.
+// Bodies an invocation of it, where it had nothing to do of late: it may find them all in one island, once.
 constexpr uint k_most_bodies_each = 48;
 // Its contacts wait for each other longer than they work, so it is done soonest with two invocations for each. But it
 // takes a multiprocessor for each group, and where work groups beside it have this many contacts for each invocation of

@@ -17,37 +17,37 @@ layout(std430) buffer Counters { uint counters[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 
 // The velocities by slot; then the movements, if there are places for both. Else these are in their buffer.
-shared vec4 fours[k_places];         // linear part and inverse mass, or rotation
-shared float threes[3u * k_places];  // angular part, or position
+shared vec4 vec4s[k_places];       // linear part and inverse mass, or rotation
+shared float vec3s[3u * k_places]; // angular part, or position
 shared uint most_substeps;
 shared uint search_bounds[2];
 // Where the group's manifolds of each colour begin; the overflow set last.
 shared uint colour_offsets[k_colour_offsets];
 
-vec3 three_at(uint place) { return vec3(threes[3u * place], threes[3u * place + 1u], threes[3u * place + 2u]); }
+vec3 vec3_at(uint place) { return vec3(vec3s[3u * place], vec3s[3u * place + 1u], vec3s[3u * place + 2u]); }
 
-void put(uint place, vec4 four, vec3 three)
+void put_in_place(uint place, vec4 first, vec3 rest)
 {
-    fours[place] = four;
-    threes[3u * place] = three.x;
-    threes[3u * place + 1u] = three.y;
-    threes[3u * place + 2u] = three.z;
+    vec4s[place] = first;
+    vec3s[3u * place] = rest.x;
+    vec3s[3u * place + 1u] = rest.y;
+    vec3s[3u * place + 2u] = rest.z;
 }
 
 BodyVelocity load_velocity(uint slot)
 {
-    vec4 four = fours[slot];
+    vec4 first = vec4s[slot];
     BodyVelocity velocity;
-    velocity.linear = four.xyz;
-    velocity.inverse_mass = four.w;
-    velocity.angular = three_at(slot);
+    velocity.linear = first.xyz;
+    velocity.inverse_mass = first.w;
+    velocity.angular = vec3_at(slot);
     velocity.stamp = 0u;
     return velocity;
 }
 
 void store_velocity(uint slot, BodyVelocity velocity)
 {
-    put(slot, vec4(velocity.linear, velocity.inverse_mass), velocity.angular);
+    put_in_place(slot, vec4(velocity.linear, velocity.inverse_mass), velocity.angular);
 }
 
 const bool k_multirate_islands = false; // they are too large
@@ -60,13 +60,13 @@ BodyDelta load_delta(uint body, uint slot)
 {
     if (!deltas_have_places()) return load_stored_delta(body);
     BodyDelta delta;
-    delta.position = three_at(slots + slot);
+    delta.position = vec3_at(slots + slot);
     delta.reserved = 0.0;
-    delta.rotation = fours[slots + slot];
+    delta.rotation = vec4s[slots + slot];
     return delta;
 }
 
-void put_delta(uint slot, BodyDelta delta) { put(slots + slot, delta.rotation, delta.position); }
+void put_delta(uint slot, BodyDelta delta) { put_in_place(slots + slot, delta.rotation, delta.position); }
 
 void store_delta(uint body, uint slot, BodyDelta delta)
 {

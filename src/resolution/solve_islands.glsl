@@ -22,7 +22,7 @@ layout(local_size_x = 384) in; // most islands have no more manifolds; with more
 layout(std430) readonly buffer Islands { uint islands[]; };
 
 const uint k_room = k_island_bodies;
-const uint k_places = k_waits_freely ? k_places_to_wait : k_room + 1u; // all drivers have 32 KB, and these take 28
+const uint k_places = k_waits_freely ? k_shared_places : k_room + 1u; // all drivers have 32 KB, and these take 28
 uint slots;
 uint slot_of(uint body) { return islands[body] == k_none ? 0u : body + 1u; }
 

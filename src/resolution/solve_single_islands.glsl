@@ -30,7 +30,7 @@ layout(std430) readonly buffer IslandStarts { uint island_starts[]; };
 uint first_place; // of the island's bodies
 
 const uint k_room = k_most_single;
-const uint k_places = k_waits_freely ? k_places_to_wait : k_room + 1u; // as in solve_islands
+const uint k_places = k_waits_freely ? k_shared_places : k_room + 1u; // as in solve_islands
 uint slots;
 uint slot_of(uint body) { return slot_at(island_places[body], first_place, k_room); }
 

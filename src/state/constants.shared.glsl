@@ -170,9 +170,9 @@ const uint k_most_grouped = 196u; // bodies of an island that a group can solve
 const uint k_group_room = k_group_window + k_most_grouped; // bodies
 const uint k_least_multirate = 131072u; // bodies of an island whose contacts may differ in sub-steps
 const uint k_most_single = k_island_bodies; // bodies of an island that has a group of its own
-// In shared memory, for velocities and movements of the bodies of one island, where contacts wait within a group: both of 681 bodies
-// and the velocities of more.
-const uint k_places_to_wait = 1364u;
+// In shared memory, each for the velocity or the movement of a body, where contacts of a group wait one by one: for both of 681
+// bodies of a single island, or body slots of a small world, and for the velocities of more.
+const uint k_shared_places = 1364u;
 
 // Words of a body in ToldLoads, see resolution/load.shared.glsl.
 const uint k_told_mass = 0u;

@@ -56,8 +56,8 @@ std::optional<uint> resident_groups_of_environment() {
 
 /// Of a kernel that solves islands, with k_waits_freely: what it keeps of a body, and some more.
 constexpr int k_shared_bytes_to_wait = 44 * 1024;
-static_assert(k_shared_bytes_to_wait >= k_places_to_wait * 28 + (k_island_bodies + 1) * 4 + 2048 &&
-              k_most_single <= k_island_bodies);
+static_assert(k_shared_bytes_to_wait >= k_shared_places * 28 + (k_island_bodies + 1) * 4 + 2048 &&
+              k_shared_places > k_island_bodies && k_most_single <= k_island_bodies);
 
 } // namespace
 
