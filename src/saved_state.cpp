@@ -54,7 +54,7 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
         }
     }
     saved.manifolds = std::move(contacts.manifolds);
-    saved.next_impulses = std::move(contacts.next);
+    saved.next_impulses = std::move(contacts.next_impulses);
     return saved;
 }
 

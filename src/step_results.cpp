@@ -31,9 +31,9 @@ ContactRecords read_contacts(Simulation& simulation) {
     // this one are still with the constraints, but for what sleeps.
     simulation.state_device().read(std::array{
         read_into(BufferId::OldManifolds, contacts.manifolds), read_into(BufferId::OldManifoldPoints, contacts.points),
-        read_into(BufferId::OldPointImpulses, contacts.next), read_into(BufferId::Constraints, constraints)});
+        read_into(BufferId::OldPointImpulses, contacts.next_impulses), read_into(BufferId::Constraints, constraints)});
     for (std::size_t i = 0; i < contacts.points.size(); ++i)
-        contacts.impulses[i] = contacts.next[i / 4].normal[static_cast<int>(i % 4)];
+        contacts.impulses[i] = contacts.next_impulses[i / 4].normal[static_cast<int>(i % 4)];
     for (const ContactConstraint& c : constraints) {
         const vec4 impulses = impulses_in_step(c);
         for (int i = 0; i < 4; ++i)

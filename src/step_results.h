@@ -12,10 +12,10 @@ namespace talus::engine {
 std::vector<Pair> read_pairs(Simulation&);
 
 struct ContactRecords {
-    std::vector<Manifold> manifolds;   ///< one a pair, with no points where the two do not touch
-    std::vector<ManifoldPoint> points; ///< four a manifold
-    std::vector<NormalImpulses> next;  ///< one a manifold: what the next step starts from
-    std::vector<float> impulses;       ///< N·s along the normal, one a point: of the whole step, hits included
+    std::vector<Manifold> manifolds;           ///< one a pair, with no points where the two do not touch
+    std::vector<ManifoldPoint> points;         ///< four a manifold
+    std::vector<NormalImpulses> next_impulses; ///< one a manifold: what the next step starts from
+    std::vector<float> impulses;               ///< N·s along the normal, one a point: of the whole step, hits included
 };
 
 /// Waits for the step.

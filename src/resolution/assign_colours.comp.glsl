@@ -26,6 +26,7 @@ layout(std430) coherent buffer Uncoloured { uint uncoloured[]; };
 layout(std430) coherent buffer Hubs { uint hubs[]; };
 
 #include "resolution/hub_load.glsl"
+#include "resolution/raise_counter.glsl"
 
 shared uint left_over; // manifolds of this group that wait for a later round
 
@@ -280,7 +281,7 @@ void note_colours(uint first, uint stride, uint entry_count)
         uint colour = manifold_keys[uncoloured[entry] & ~k_has_got];
         if (colour < k_first_hub_colour) most = max(most, colours_down_to(colour));
     }
-    if (most > counters[k_counter_colour_demand]) atomicMax(counters[k_counter_colour_demand], most);
+    raise_counter(k_counter_colour_demand, most);
 }
 
 void colour_all(bool by_class, uint first, uint stride, uint entry_count)

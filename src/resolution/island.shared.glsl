@@ -46,8 +46,8 @@ inline uint island_group(uint size, uint start, bool has_singles)
     return has_singles && is_single(size) ? single_group(window + 2u) : k_launched;
 }
 
-// Where a work group has a body that is at `place` in the order of islands, where its own are the `room` from `first` on. Slot 0 is
-// for all others, and what nothing moves, whose place is k_none.
+// Where a work group has a body that is at `place` in the order of islands, in which its own are the `room` from `first` on.
+// Slot 0 is for all others, and what nothing moves, whose place is k_none.
 inline uint slot_at(uint place, uint first, uint room)
 {
     uint own = place - first;

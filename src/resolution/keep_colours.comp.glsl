@@ -25,6 +25,7 @@ layout(std430) writeonly buffer Uncoloured { uint uncoloured[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
 #include "resolution/hub_load.glsl"
+#include "resolution/raise_counter.glsl"
 
 // What the group's manifolds add to the counters.
 shared uint manifold_count;
@@ -87,6 +88,6 @@ void main()
     if (!is_first || manifold_count == 0u) return;
     atomicAdd(counters[k_counter_manifold_count], manifold_count);
     atomicAdd(counters[k_counter_contact_count], contact_count);
-    if (substep_demand > counters[k_counter_substep_demand]) atomicMax(counters[k_counter_substep_demand], substep_demand);
-    if (colour_demand > counters[k_counter_colour_demand]) atomicMax(counters[k_counter_colour_demand], colour_demand);
+    raise_counter(k_counter_substep_demand, substep_demand);
+    raise_counter(k_counter_colour_demand, colour_demand);
 }

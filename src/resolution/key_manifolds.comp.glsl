@@ -18,6 +18,8 @@ layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
+#include "resolution/raise_counter.glsl"
+
 void main()
 {
     uint pair = item_index();
@@ -38,7 +40,6 @@ void main()
     uint group = group_number(island_groups[body]);
     manifold_keys[pair] = manifold_key(group, colour);
     if (group != k_launched) return;
-    uint colours = colour < k_first_hub_colour ? colours_down_to(colour) : 0u;
-    if (colours > counters[k_counter_launched_colours]) atomicMax(counters[k_counter_launched_colours], colours);
+    if (colour < k_first_hub_colour) raise_counter(k_counter_launched_colours, colours_down_to(colour));
     if (colour == k_overflow_colour) atomicAdd(counters[k_counter_launched_overflow], 1u);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
 // args.x, args.y: the first pair that is wanted, and how many are.
-// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, PointImpulses, BodyColours, Velocities, Inertias.
+// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, PointImpulses, BodyColours, Velocities,
+// Inertias.
 // Writes: Constraints, ToldLoads.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
@@ -31,7 +32,6 @@ layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
-
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 
 #include "resolution/hub_load.glsl"

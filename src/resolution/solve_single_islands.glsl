@@ -2,7 +2,8 @@
 // One group is an island of a large world that has more bodies than several could share a group. There is a group for
 // each number that an island may have (island.shared.glsl); those with no island of this kind end at once.
 // Before this file the kernel defines k_bounces, as for contact_passes.glsl.
-// Reads: IslandBodies, IslandPlaces, IslandGroups, IslandSizes, IslandStarts; for what else it reads and writes see solve_in_group.glsl.
+// Reads: IslandBodies, IslandPlaces, IslandGroups, IslandSizes, IslandStarts; for what else it reads and writes see
+// solve_in_group.glsl.
 // Needs: a barrier after prepare_contacts.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"

@@ -3,7 +3,8 @@
 // the caller, find them. The load on it decides how many sub-steps it asks for next.
 // args.x, args.y: the first pair that is wanted, and how many are. args.z: 1 where islands may be multirate.
 // Reads: Counters, Constraints, ManifoldKeys, ManifoldOrder, Properties, ToldLoads.
-// Writes: PointImpulses; Manifolds (friction impulses, colour, load, sub-steps); Counters, where an island may get other sub-steps.
+// Writes: PointImpulses; Manifolds (friction impulses, colour, load, sub-steps); Counters, where an island may get other
+// sub-steps.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"

@@ -138,7 +138,8 @@ struct ManifoldPoint {
     float reserved;
 };
 
-// 16 bytes, one a pair: what its points start from in the next step. By themselves, as the solver writes them in an order of its own.
+// 16 bytes, one a pair: what its points start from in the next step. Not in the points, as the solver writes in an order of its
+// own, and four words far apart cost as much as four records.
 struct NormalImpulses {
     vec4 normal; // N s of each point, over the step; 0 where there is none
 };
