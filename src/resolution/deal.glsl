@@ -3,15 +3,15 @@
 // other. A place of the deal has a manifold or is empty.
 // For kernels that include solve_substeps.glsl before this file, and say
 //   const uint k_dealt_together, by how many
-//   uint workers(), how many there are
+//   uint workers(), how many there are to deal to
+//   uint begin_of(uint colour), uint end_of(uint colour), which manifolds of a colour are dealt to them
 
-uint worker;
-bool is_first_worker() { return worker == 0u; }
+uint worker; // of these
 
 shared uint first_places[k_max_colours + 1u]; // of each colour; then the end
 uint worker_colour;                           // of the worker's present place
 
-uint count_of(uint colour) { return colour_offsets[colour + 1u] - colour_offsets[colour]; }
+uint count_of(uint colour) { return end_of(colour) - begin_of(colour); }
 
 uint places_of(uint colour)
 {
@@ -37,7 +37,7 @@ uint manifold_at(uint place)
     while (first_places[worker_colour + 1u] <= place)
         ++worker_colour;
     uint i = place - first_places[worker_colour];
-    return i < count_of(worker_colour) ? colour_offsets[worker_colour] + i : k_none;
+    return i < count_of(worker_colour) ? begin_of(worker_colour) + i : k_none;
 }
 
 // At this place of the worker's or a later one.
@@ -52,5 +52,5 @@ uint manifold_from(uint place)
 
 uint after(uint index)
 {
-    return manifold_from(index - colour_offsets[worker_colour] + first_places[worker_colour] + workers());
+    return manifold_from(index - begin_of(worker_colour) + first_places[worker_colour] + workers());
 }

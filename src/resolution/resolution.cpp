@@ -105,8 +105,10 @@ void solve(Device& device, const StepPlan& plan) {
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
     const Kernel& persistent = persistent_solver(plan);
     if (plan.persistent_groups > 0 && plan.needs_launches()) {
-        if (plan.may_be_multirate())
-            device.grow(BufferId::FastColours, sizeof(uint) * k_fast_colour_words * plan.body_count);
+        if (plan.may_be_multirate()) {
+            device.grow(BufferId::FastBodies, sizeof(uint) * k_fast_body_words * plan.body_count);
+            device.grow(BufferId::FastContacts, sizeof(uint) * plan.manifold_capacity);
+        }
         device.run({.kernel = persistent,
                     .items = plan.persistent_groups * persistent.items_a_group,
                     .args = {0, plan.kinematic},

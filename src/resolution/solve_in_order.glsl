@@ -72,23 +72,85 @@ void take_stamps_away(uint body)
     if (has_stamps(stored)) store_velocity(body, without_stamps(stored, body));
 }
 
-// ---- the deal ----
+// ---- lists of what is fast ----
+//
+// Most ticks may be such that few have a sub-step. Who these are is listed in the first pass of a step: of each worker's contacts,
+// as nobody else may have them, those that may have one; of each group's bodies, which anybody may move, those that do. To come
+// by all others takes as long as a pass over them.
 
-const uint k_dealt_together = 64u; // no GPU that runs more in step (subgroups) is known to have OpenGL 4.5
-uint workers() { return gl_NumWorkGroups.x * gl_WorkGroupSize.x; }
+// A body slot's words: the colours of its fast contacts, two words for each power (see below); then one of the list of bodies.
+layout(std430) coherent buffer FastBodies { uint fast_bodies[]; };
+layout(std430) buffer FastContacts { uint next_fast[]; }; // the worker's next one behind this; k_none: none
+
+uint first_fast = k_none;
+uint last_fast = k_none;
+shared uint fast_count; // bodies of the group
+
+uint list_word(uint place) { return k_fast_body_words * place + 2u * k_most_doublings; }
+
+// `begin`: where the group's places begin.
+void list_fast_body(uint begin, uint body) { fast_bodies[list_word(begin + atomicAdd(fast_count, 1u))] = body; }
+
+void list_fast_contact(uint index)
+{
+    if (first_fast == k_none)
+        first_fast = index;
+    else
+        next_fast[last_fast] = index;
+    next_fast[index] = k_none;
+    last_fast = index;
+}
+
+// ---- the deal ----
+//
+// Each group has a part of every colour. Manifolds of one colour are in the order of pairs, so what a group has of all colours
+// is close together in space: it finds what it reads of bodies where it has read it before, waits for few other groups, and these
+// need not all load at a time and wait at a time.
+
+// Where the group's part of so many begins; that of the next group ends it.
+uint part_begin(uint count, uint group)
+{
+    uint groups = gl_NumWorkGroups.x;
+    return count / groups * group + count % groups * group / groups;
+}
+
+shared uint part_begins[k_max_colours];
+shared uint part_ends[k_max_colours];
+
+uint begin_of(uint colour) { return part_begins[colour]; }
+uint end_of(uint colour) { return part_ends[colour]; }
+
+const uint k_dealt_together = k_in_step;
+uint workers() { return gl_WorkGroupSize.x; }
 
 #include "resolution/deal.glsl"
 
+bool is_first_worker() { return worker == 0u && gl_WorkGroupID.x == 0u; }
+
 shared uint is_left[3]; // see goes_on
 
-// Groups take turns, as there are often fewer manifolds than invocations, and all multiprocessors are to have some.
 void deal_manifolds()
 {
-    uint me = gl_LocalInvocationID.x;
-    uint deal = me / k_dealt_together * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    worker = deal * k_dealt_together + me % k_dealt_together;
-    if (me < 3u) is_left[me] = 0u;
+    worker = gl_LocalInvocationID.x;
+    if (worker < 3u) is_left[worker] = 0u;
+    if (worker == 0u) fast_count = 0u;
+    for (uint colour = worker; colour < k_max_colours; colour += workers()) {
+        uint count = colour_offsets[colour + 1u] - colour_offsets[colour];
+        part_begins[colour] = colour_offsets[colour] + part_begin(count, gl_WorkGroupID.x);
+        part_ends[colour] = colour_offsets[colour] + part_begin(count, gl_WorkGroupID.x + 1u);
+    }
+    barrier();
     find_places();
+}
+
+uint first_place_from(uint end) { return worker + (max(end, worker) - worker + workers() - 1u) / workers() * workers(); }
+
+// Of what is listed, one after the other.
+uint manifold_in_list(uint index)
+{
+    while (end_of(worker_colour) <= index)
+        ++worker_colour;
+    return index;
 }
 
 // ---- ticks in which few have a sub-step ----
@@ -96,18 +158,16 @@ void deal_manifolds()
 // In those the order at a body is that of its contacts which have one. Of a tick which 2^t is the highest power to divide, these
 // are the contacts for which a tick in 2^t or in fewer begins a sub-step.
 
-layout(std430) coherent buffer FastColours { uint fast_colours[]; };
-
 uint ticks_power(uint tick) { return uint(findLSB(tick)); }
 uint slowest_power() { return uint(findLSB(ticks_apart)); }
 // `word`: k_used_low or k_used_high.
-uint fast_word(uint body, uint power, uint word) { return k_fast_colour_words * body + 2u * power + word; }
+uint fast_word(uint body, uint power, uint word) { return k_fast_body_words * body + 2u * power + word; }
 
 void forget_fast_colours(uint body)
 {
     for (uint power = 0u; power < slowest_power(); ++power) {
-        fast_colours[fast_word(body, power, k_used_low)] = 0u;
-        fast_colours[fast_word(body, power, k_used_high)] = 0u;
+        fast_bodies[fast_word(body, power, k_used_low)] = 0u;
+        fast_bodies[fast_word(body, power, k_used_high)] = 0u;
     }
 }
 
@@ -115,19 +175,20 @@ void note_fast_colour(uint body, uint its_traits, uint colour)
 {
     if ((its_traits & k_trait_movable) == 0u) return;
     for (uint power = slowness(traits); power < slowest_power(); ++power)
-        atomicOr(fast_colours[fast_word(body, power, used_word(colour))], used_bit(colour));
+        atomicOr(fast_bodies[fast_word(body, power, used_word(colour))], used_bit(colour));
 }
 
 uint count_earlier_fast(uint body, uint its_traits, uint colour, uint power)
 {
     if ((its_traits & k_trait_movable) == 0u) return 0u;
-    return count_earlier(fast_colours[fast_word(body, power, k_used_low)], fast_colours[fast_word(body, power, k_used_high)],
+    return count_earlier(fast_bodies[fast_word(body, power, k_used_low)], fast_bodies[fast_word(body, power, k_used_high)],
                          colour);
 }
 
 void note_unlike()
 {
     if (!k_multirate_islands || index_in_hand >= colour_offsets[k_first_hub_colour]) return;
+    list_fast_contact(index_in_hand);
     note_fast_colour(body_a, traits, worker_colour);
     note_fast_colour(body_b, traits >> k_traits_of_b, worker_colour);
 }
@@ -164,14 +225,20 @@ bool is_turn()
 // one after the other.
 bool is_alone() { return !k_waits_freely && gl_NumWorkGroups.x == 1u; }
 
-// Whether it is the turn of the contact in hand, or somebody has given up. Some drivers end a loop after so many rounds.
-bool wait_for_turn()
+uint looks; // at the contact in hand
+
+// Whether it is the turn of the contact in hand, or somebody has given up. What runs in step waits here together, if none of it waits
+// for another one. Else each looks once, as those whose turn it is have to go on. Some drivers end a loop after so many rounds.
+bool wait_for_turn(bool waits_together)
 {
     bool fits = is_turn();
     if (is_alone()) return fits;
-    uint looks = 0u;
-    while (!fits && looks_again(looks))
+    bool is_to_look = !fits && looks_again(looks);
+    while (waits_together && is_to_look) {
         fits = is_turn();
+        is_to_look = !fits && looks_again(looks);
+    }
+    if (is_to_look) return false;
     if (!fits) give_up();
     return true;
 }
@@ -228,34 +295,44 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     wait_for_finish();
     ++passes_in_order;
     uint end = first_places[k_first_hub_colour];
-    uint place = worker;
+    bool all = most_have_substep(tick); // have a part in it, or what is listed
+    uint place = all ? worker : first_place_from(end);
+    uint listed = first_fast;
     uint first = k_none; // of the worker's manifolds; the next pass begins with it
+    bool asks_late = all && ticks_apart > 1u; // where a mark means a sub-step more often than not
     bool is_ready = false;
     PassTarget target;
-    come_by = 0u;
+    come_by = (place - worker) / workers();
     worker_colour = first_colour;
-    while (goes_on(place < end)) {
-        if (place >= end) continue;
-        uint index = manifold_at(place);
-        if (index != k_none && has_substep(index, tick)) {
-            if (!is_ready) {
-                take_in_hand(index);
-                if (pass == k_warm_start)
-                    note_whether_unlike();
-                else
-                    target = target_of_pass(pass);
-                find_earlier(tick);
-                is_ready = true;
-                if (first == k_none) first = index;
+    while (goes_on(all ? place < end : listed != k_none)) {
+        if (all ? place >= end : listed == k_none) continue;
+        uint index = all ? manifold_at(place) : manifold_in_list(listed);
+        if (index != k_none && (asks_late || has_substep(index, tick, all))) {
+            take_in_hand(index);
+            if (!asks_late || has_substep(index, tick, all)) {
+                if (!is_ready) {
+                    if (pass == k_warm_start)
+                        note_whether_unlike();
+                    else
+                        target = target_of_pass(pass);
+                    find_earlier(tick);
+                    looks = 0u;
+                    is_ready = true;
+                    if (first == k_none) first = index;
+                }
+                if (!wait_for_turn(all)) continue;
+                pass_in_turn(pass, index, target);
+                is_ready = false;
             }
-            if (!wait_for_turn()) continue;
-            pass_in_turn(pass, index, target);
-            is_ready = false;
         }
-        place += workers();
-        ++come_by;
+        if (all) {
+            place += workers();
+            ++come_by;
+        } else {
+            listed = next_fast[listed];
+        }
     }
-    if (place < end) give_up(); // a driver has ended the loop
+    if (all ? place < end : listed != k_none) give_up(); // a driver has ended the loop
     take_in_hand(first);
     bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
     bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;

@@ -10,7 +10,12 @@
 // Where contacts wait, what runs in step is to have contacts of one colour; but of several small islands there are few of a colour.
 const uint k_dealt_together = k_waits_freely && k_one_island ? k_in_step : 1u;
 
+uint begin_of(uint colour) { return colour_offsets[colour]; }
+uint end_of(uint colour) { return colour_offsets[colour + 1u]; }
+
 #include "resolution/deal.glsl"
+
+bool is_first_worker() { return worker == 0u; }
 
 // ---- turns ----
 

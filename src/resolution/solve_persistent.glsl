@@ -7,7 +7,7 @@
 // args.x: 1 to count how many groups can run at a time instead. args.y: 1 where some body is kinematic.
 // Reads: Counters, ColourOffsets, Hubs, LaunchedBodies, Inertias, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
-// HubChanges, FastColours, Arrivals.
+// HubChanges, FastBodies, FastContacts, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; Arrivals as plan_colours leaves it.
 // Overflow: none; does nothing after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -101,19 +101,19 @@ void finish_colour(uint colour, uint tick)
     hubs_move = true;
 }
 
-uint fast_marks = 0u; // bits for its bodies in turns: one of them may have more sub-steps than most
-
 void integrate_own_bodies(uint tick)
 {
     // A hub is its keeper's, which has moved it and need not wait to see that.
     uint hub_count = counters[k_counter_hub_count];
-    uint hub = gl_LocalInvocationID.x == k_hub_keeper ? gl_WorkGroupID.x : hub_count;
+    uint hub = worker == k_hub_keeper ? gl_WorkGroupID.x : hub_count;
     // Where most bodies are launched, to look at all of them is quicker than to ask a list which they are.
-    uint listed = counters[k_counter_launched_bodies];
-    bool looks_at_all = 2u * listed > parameters.body_count;
-    uint end = looks_at_all ? parameters.body_count : listed;
-    uint next = worker;
-    uint mark = 1u;
+    uint launched = counters[k_counter_launched_bodies];
+    bool looks_at_all = 2u * launched > parameters.body_count;
+    uint count = looks_at_all ? parameters.body_count : launched;
+    uint begin = part_begin(count, gl_WorkGroupID.x);
+    bool all = most_have_substep(tick);
+    uint end = all ? part_begin(count, gl_WorkGroupID.x + 1u) : begin + fast_count;
+    uint next = begin + worker;
     while (hub < hub_count || next < end) {
         uint body;
         moves_hub = hub < hub_count;
@@ -121,16 +121,14 @@ void integrate_own_bodies(uint tick)
             body = hubs[hub];
             hub += gl_NumWorkGroups.x;
         } else {
-            uint place = next;
-            uint its_mark = mark;
+            body = !all ? fast_bodies[list_word(next)] : looks_at_all ? next : launched_bodies[next];
             next += workers();
-            mark = mark << 1u | mark >> 31u;
-            if (!most_have_substep(tick) && (fast_marks & its_mark) == 0u) continue;
-            body = looks_at_all ? place : launched_bodies[place];
-            bool is_fast = k_multirate_islands && (1u << slowness(unpack(inertias[body]).traits)) != ticks_apart;
-            if (is_fast) fast_marks |= its_mark;
         }
-        if (k_multirate_islands && tick == 0u) forget_fast_colours(body);
+        if (k_multirate_islands && tick == 0u) {
+            forget_fast_colours(body);
+            BodyInertia inertia = unpack(inertias[body]);
+            if (!moves_hub && is_own(inertia) && (1u << slowness(inertia.traits)) != ticks_apart) list_fast_body(begin, body);
+        }
         integrate_body(body, tick);
         bool keeps_stamps = parameters.relax == 0u && tick == like_substeps * ticks_apart;
         if (keeps_stamps && is_own(unpack(inertias[body]))) take_stamps_away(body);

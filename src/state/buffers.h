@@ -78,7 +78,8 @@ namespace talus::engine {
     X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffuffffffffffffffffffffffffffffffffffffffffffff", \
       Result)                                                                                                          \
     X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
-    X(FastColours, fast_colours, uint, "u", Scratch)                                                                   \
+    X(FastBodies, fast_bodies, uint, "u", Scratch)                                                                     \
+    X(FastContacts, fast_contacts, uint, "u", Scratch)                                                                 \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
     X(HubChanges, hub_changes, HubChange, "fffufffu", Result)                                                          \
     X(Arrivals, arrivals, uint, "u", Scratch)                                                                          \
