@@ -48,6 +48,16 @@ inline uint substep_at(uint tick, uint traits)
     return choose((substep << r) == tick, substep, k_none);
 }
 
+// FastContact::rate
+inline uint rate_of(uint substeps, uint traits) { return substeps | slowness(traits) << 16u; }
+
+inline bool has_substep(FastContact contact, uint tick)
+{
+    uint r = contact.rate >> 16u;
+    uint substep = tick >> r;
+    return (substep << r) == tick && substep < (contact.rate & 0xffffu);
+}
+
 // Of what a contact changes about a body in its own sub-step, the part that this one of the body's has. A power of two.
 inline float part_of_change(uint traits, uint traits_of_body)
 {

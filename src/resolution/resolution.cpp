@@ -107,7 +107,7 @@ void solve(Device& device, const StepPlan& plan) {
     if (plan.persistent_groups > 0 && plan.needs_launches()) {
         if (plan.may_be_multirate()) {
             device.grow(BufferId::FastBodies, sizeof(uint) * k_fast_body_words * plan.body_count);
-            device.grow(BufferId::FastContacts, sizeof(uint) * plan.manifold_capacity);
+            device.grow(BufferId::FastContacts, sizeof(FastContact) * plan.manifold_capacity);
         }
         device.run({.kernel = persistent,
                     .items = plan.persistent_groups * persistent.items_a_group,

@@ -80,7 +80,7 @@ void take_stamps_away(uint body)
 
 // A body slot's words: the colours of its fast contacts, two words for each power (see below); then one of the list of bodies.
 layout(std430) coherent buffer FastBodies { uint fast_bodies[]; };
-layout(std430) buffer FastContacts { uint next_fast[]; }; // the worker's next one behind this; k_none: none
+layout(std430) buffer FastContacts { FastContact fast_contacts[]; };
 
 uint first_fast = k_none;
 uint last_fast = k_none;
@@ -91,14 +91,16 @@ uint list_word(uint place) { return k_fast_body_words * place + 2u * k_most_doub
 // `begin`: where the group's places begin.
 void list_fast_body(uint begin, uint body) { fast_bodies[list_word(begin + atomicAdd(fast_count, 1u))] = body; }
 
-void list_fast_contact(uint index)
+// The one in hand.
+void list_fast_contact()
 {
     if (first_fast == k_none)
-        first_fast = index;
+        first_fast = index_in_hand;
     else
-        next_fast[last_fast] = index;
-    next_fast[index] = k_none;
-    last_fast = index;
+        fast_contacts[last_fast].next = index_in_hand;
+    last_fast = index_in_hand;
+    fast_contacts[last_fast].next = k_none;
+    fast_contacts[last_fast].rate = rate_of(substeps, traits);
 }
 
 // ---- the deal ----
@@ -188,7 +190,7 @@ uint count_earlier_fast(uint body, uint its_traits, uint colour, uint power)
 void note_unlike()
 {
     if (!k_multirate_islands || index_in_hand >= colour_offsets[k_first_hub_colour]) return;
-    list_fast_contact(index_in_hand);
+    list_fast_contact();
     note_fast_colour(body_a, traits, worker_colour);
     note_fast_colour(body_b, traits >> k_traits_of_b, worker_colour);
 }
@@ -307,9 +309,11 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     while (goes_on(all ? place < end : listed != k_none)) {
         if (all ? place >= end : listed == k_none) continue;
         uint index = all ? manifold_at(place) : manifold_in_list(listed);
-        if (index != k_none && (asks_late || has_substep(index, tick, all))) {
+        FastContact fast;
+        if (!all) fast = fast_contacts[listed];
+        if (index != k_none && (asks_late || (all ? has_substep(index, tick) : has_substep(fast, tick)))) {
             take_in_hand(index);
-            if (!asks_late || has_substep(index, tick, all)) {
+            if (!asks_late || has_substep(index, tick)) {
                 if (!is_ready) {
                     if (pass == k_warm_start)
                         note_whether_unlike();
@@ -329,7 +333,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
             place += workers();
             ++come_by;
         } else {
-            listed = next_fast[listed];
+            listed = fast.next;
         }
     }
     if (all ? place < end : listed != k_none) give_up(); // a driver has ended the loop

@@ -57,17 +57,14 @@ void note_whether_unlike()
     note_unlike();
 }
 
-// `has_place`: the worker has come by it, so that it may have a mark.
-bool has_substep(uint index, uint tick, bool has_place)
+bool has_substep(uint index, uint tick)
 {
     if (tick < (k_multirate_islands ? 1u : parameters.least_substeps)) return true;
-    if (k_notes_unlike && has_place && !has_mark()) return most_have_substep(tick);
+    if (k_notes_unlike && !has_mark()) return most_have_substep(tick);
     uint its_substeps = index == index_in_hand ? substeps : substeps_of_contact(cell_in_block(constraints, index, 0u).w);
     if (!k_multirate_islands) return tick < its_substeps;
     return substep_at(tick, index == index_in_hand ? traits : cell_in_block(constraints, index, 4u).w) < its_substeps;
 }
-
-bool has_substep(uint index, uint tick) { return has_substep(index, tick, true); }
 
 // ---- the worker's manifolds at a tick ----
 

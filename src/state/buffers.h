@@ -79,7 +79,7 @@ namespace talus::engine {
       Result)                                                                                                          \
     X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
     X(FastBodies, fast_bodies, uint, "u", Scratch)                                                                     \
-    X(FastContacts, fast_contacts, uint, "u", Scratch)                                                                 \
+    X(FastContacts, fast_contacts, FastContact, "uu", Scratch)                                                         \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
     X(HubChanges, hub_changes, HubChange, "fffufffu", Result)                                                          \
     X(Arrivals, arrivals, uint, "u", Scratch)                                                                          \

@@ -176,6 +176,12 @@ struct ContactConstraint {
     vec4 hit_impulse;    // N s, the sum of the step's hits
 };
 
+// 8 bytes, one a constraint: of a list of those that may have more sub-steps than most.
+struct FastContact {
+    uint next; // constraint in the list; k_none at its end
+    uint rate; // see resolution/multirate.shared.glsl
+};
+
 // 32 bytes, one for each constraint in the colours for hubs: what it does to its hub in a pass.
 struct HubChange {
     vec3 linear; // m/s
