@@ -31,7 +31,8 @@ void main()
     bool other_list = counters[k_counter_searched_slots] != parameters.body_count;
     if (!other_list && is_within(box_now(body), unpack(oriented_boxes[body]))) return;
     bool takes_all = other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
-    uint place = takes_all ? k_most_strays : atomicAdd(counters[k_counter_stray_count], 1u);
+    bool are_many = counters[k_counter_stray_count] >= k_most_strays; // known without adding to what all add to
+    uint place = takes_all || are_many ? k_most_strays : atomicAdd(counters[k_counter_stray_count], 1u);
     if (place < k_most_strays)
         strays[place] = body;
     else
