@@ -284,7 +284,7 @@ void note_colours(uint first, uint stride, uint entry_count)
     raise_counter(k_counter_colour_demand, most);
 }
 
-void colour_all(bool by_class, uint first, uint stride, uint entry_count)
+void begin_all_again(bool by_class, uint first, uint stride, uint entry_count)
 {
     for (uint entry = first; entry < entry_count; entry += stride)
         begin_again(entry);
@@ -292,18 +292,18 @@ void colour_all(bool by_class, uint first, uint stride, uint entry_count)
     entry_in_hand = k_none;
     wait_for_workers();
     if (first == 0u) counters[k_counter_colour_demand] = 0u; // all have read it
-    colour_in_rounds(first, stride, entry_count);
-    note_colours(first, stride, entry_count);
 }
 
-void colour_again(uint first, uint stride, uint entry_count)
+// Whether all get colours, for the how manieth time: by rank at first; where all are new, again by class if a few colours were
+// enough, and by rank once more if they are not enough then. Compilers put what is called into each place that calls it: so there is one.
+bool is_time(uint time, bool all_new)
 {
+    if (time == 0u) return true;
+    if (!all_new) return false;
     wait_for_workers();
-    if (counters[k_counter_colour_demand] > k_many_colours) return;
-    for (uint times = 0u; times < k_times_again; ++times)
-        colour_all(true, first, stride, entry_count);
-    wait_for_workers();
-    if (counters[k_counter_colour_demand] > k_many_colours) colour_all(false, first, stride, entry_count);
+    bool are_many = counters[k_counter_colour_demand] > k_many_colours;
+    if (time == 1u) return !are_many;
+    return time <= k_times_again || (time == k_times_again + 1u && are_many);
 }
 
 void main()
@@ -333,9 +333,11 @@ void main()
     }
     bool all_new = counters[k_counter_colour_demand] == 0u && !has_hubs;
     wait_for_workers();
-    colour_in_rounds(first, stride, entry_count);
-    note_colours(first, stride, entry_count);
-    if (all_new) colour_again(first, stride, entry_count);
+    for (uint time = 0u; is_time(time, all_new); ++time) {
+        if (time > 0u) begin_all_again(time <= k_times_again, first, stride, entry_count);
+        colour_in_rounds(first, stride, entry_count);
+        note_colours(first, stride, entry_count);
+    }
     for (uint i = first; i < counters[k_counter_hub_count]; i += stride) {
         uint shares = shares_of_hub(body_colours[body_word(hubs[i], k_new_edges)],
                                     body_colours[body_word(hubs[i], k_hub_word)]);
