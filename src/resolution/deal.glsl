@@ -5,6 +5,7 @@
 //   const uint k_dealt_together, by how many
 //   uint workers(), how many there are to deal to
 //   uint begin_of(uint colour), uint end_of(uint colour), which manifolds of a colour are dealt to them
+//   bool is_first_worker(), of all
 
 uint worker; // of these
 
@@ -40,17 +41,29 @@ uint manifold_at(uint place)
     return i < count_of(worker_colour) ? begin_of(worker_colour) + i : k_none;
 }
 
-// At this place of the worker's or a later one.
-uint manifold_from(uint place)
+// ---- the overflow set ----
+//
+// It is the first worker's, one manifold after the other, behind all that have a colour.
+
+bool is_first_worker();
+
+uint overflow_place; // where it begins among the places
+uint end_place;      // where all of them end
+
+// `has_overflow`: the first worker is one of these.
+void find_end_of_places(bool has_overflow)
 {
-    for (; place < first_places[k_max_colours]; place += workers()) {
-        uint index = manifold_at(place);
-        if (index != k_none) return index;
-    }
-    return end_index;
+    uint overflow = has_overflow ? colour_offsets[k_overflow_colour + 1u] - end_index : 0u;
+    end_place = first_places[k_max_colours];
+    overflow_place = overflow == 0u ? end_place : (end_place + workers() - 1u) / workers() * workers();
+    if (overflow > 0u) end_place = overflow_place + overflow * workers();
 }
 
-uint after(uint index)
+// With the manifolds of a colour, or of the overflow set.
+uint end_of_places(uint colour) { return colour == k_overflow_colour ? end_place : first_places[colour + 1u]; }
+
+uint own_manifold_at(uint place)
 {
-    return manifold_from(index - begin_of(worker_colour) + first_places[worker_colour] + workers());
+    if (place < first_places[k_max_colours]) return manifold_at(place);
+    return is_first_worker() && place >= overflow_place ? end_index + (place - overflow_place) / workers() : k_none;
 }

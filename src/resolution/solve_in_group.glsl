@@ -142,18 +142,6 @@ void wait_for_workers()
 
 #include "resolution/solve_in_turn.glsl"
 
-void pass_over_contacts(uint pass, uint tick, bool ends_tick)
-{
-    if (k_waits_freely) {
-        pass_in_turns(pass, tick);
-        return;
-    }
-    come_by = 0u;
-    worker_colour = first_colour;
-    uint first = first_at(tick, manifold_from(worker));
-    pass_over_colours(first_colour, first, first, pass, tick);
-}
-
 // ---- islands ----
 
 uint own_bodies; // a bit for each
@@ -165,8 +153,6 @@ void integrate_own_bodies(uint tick)
     }
 }
 
-void finish_colour(uint colour, uint tick) {}
-void wait_for_finish() {}
 void note_unlike() {}
 
 void solve_group(uint group)

@@ -10,7 +10,11 @@
 //
 // What a GPU runs in step is at manifolds of one colour at a time, none of which waits for another one.
 //
-// For solve_persistent.glsl, behind solve_substeps.glsl and grid_barrier.glsl.
+// For solve_persistent.glsl, behind solve_substeps.glsl and grid_barrier.glsl, which defines
+
+// What follows the pass over a colour of hubs, and the wait until all see what that has changed.
+void finish_colour(uint colour, uint tick);
+void wait_for_finish();
 
 #include "resolution/waits.glsl"
 
@@ -143,6 +147,7 @@ void deal_manifolds()
     }
     barrier();
     find_places();
+    find_end_of_places(gl_WorkGroupID.x == 0u);
 }
 
 uint first_place_from(uint end) { return worker + (max(end, worker) - worker + workers() - 1u) / workers() * workers(); }
@@ -292,6 +297,30 @@ BodyVelocity load_settled_velocity(uint body, uint its_traits)
     return without_stamps(cells, body);
 }
 
+// Behind those in order: the colours of hubs and the overflow set, with a wait behind each. `place`: the worker's first one of theirs.
+void pass_over_hubs_and_overflow(uint place, uint pass, uint tick)
+{
+    for (uint colour = k_first_hub_colour; colour <= k_overflow_colour; ++colour) {
+        if (colour_offsets[colour] == colour_offsets[colour + 1u]) continue;
+        wait_for_finish();
+        for (; place < end_of_places(colour); place += workers()) {
+            uint index = own_manifold_at(place);
+            if (index != k_none && has_substep(index, tick)) {
+                take_in_hand(index);
+                PassTarget target;
+                if (pass == k_warm_start)
+                    note_whether_unlike();
+                else
+                    target = target_of_pass(pass);
+                pass_over_constraint(pass, tick, index, target);
+            }
+            ++come_by;
+        }
+        wait_for_workers();
+        if (is_hub_colour(colour)) finish_colour(colour, tick);
+    }
+}
+
 void pass_over_contacts(uint pass, uint tick, bool ends_tick)
 {
     wait_for_finish();
@@ -342,7 +371,5 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;
     is_settled = !(are_all && ends_tick && move_by_themselves);
     if (is_settled || is_alone()) wait_for_workers();
-    if (are_all) return;
-    uint index = first_at(tick, manifold_from(place));
-    pass_over_colours(k_first_hub_colour, index, first == k_none ? index : first, pass, tick);
+    if (!are_all) pass_over_hubs_and_overflow(place, pass, tick);
 }

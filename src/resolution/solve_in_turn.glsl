@@ -73,7 +73,7 @@ void end_turns(uint index)
 void pass_in_turn(uint pass, uint tick, uint index, PassTarget target)
 {
     uint looks = 0u;
-    bool is_its_turn = is_turn();
+    bool is_its_turn = !k_waits_freely || is_turn();
     while (k_one_island && !is_its_turn && looks_again(looks))
         is_its_turn = is_turn();
     bool is_done = false;
@@ -82,7 +82,7 @@ void pass_in_turn(uint pass, uint tick, uint index, PassTarget target)
             groupMemoryBarrier();
             pass_over_constraint(pass, tick, index, target);
             groupMemoryBarrier();
-            end_turns(index);
+            if (k_waits_freely) end_turns(index);
             is_done = true;
         } else {
             is_its_turn = is_turn();
@@ -93,54 +93,43 @@ void pass_in_turn(uint pass, uint tick, uint index, PassTarget target)
 
 // ---- the deal ----
 
-// Where the overflow set begins among the places, which is the first worker's; and where all of them end.
-uint overflow_place;
-uint end_place;
-
-void find_end_of_places()
-{
-    uint overflow = colour_offsets[k_overflow_colour + 1u] - end_index;
-    end_place = first_places[k_first_hub_colour];
-    overflow_place = overflow == 0u ? end_place : (end_place + workers() - 1u) / workers() * workers();
-    if (overflow > 0u) end_place = overflow_place + overflow * workers();
-}
-
 void deal_manifolds()
 {
     worker = gl_LocalInvocationID.x;
     find_places();
-    find_end_of_places();
-}
-
-uint own_manifold_at(uint place)
-{
-    if (place < first_places[k_first_hub_colour]) return manifold_at(place);
-    return is_first_worker() && place >= overflow_place ? end_index + (place - overflow_place) / workers() : k_none;
+    find_end_of_places(true);
 }
 
 // ---- a pass ----
 
-// What runs in step stays at one colour, at places without a manifold too: so nothing here leaves a round of the loop early.
-void pass_in_turns(uint pass, uint tick)
+// Where contacts wait for each other there is one stage, with all colours; else one for each, with a barrier behind it. What runs in
+// step stays at one colour, at places without a manifold too: so nothing here leaves a round of the loop early.
+void pass_over_contacts(uint pass, uint tick, bool ends_tick)
 {
     ++passes_in_order;
     worker_colour = first_colour;
     uint first = k_none; // of the worker's manifolds; the next pass begins with it
-    bool is_end = false; // in the last round that one is only taken in hand
-    for (uint place = worker; !is_end; place += workers()) {
-        is_end = place >= end_place;
-        uint index = is_end ? first : own_manifold_at(place);
-        // To ask others than the one in hand is a load. Those of one island have the same number of sub-steps.
-        if (index != k_none && (k_one_island || has_substep(index, tick))) {
-            take_in_hand(index);
-            if (!is_end && has_substep(index, tick)) {
-                if (first == k_none) first = index;
-                PassTarget target;
-                if (pass != k_warm_start) target = target_of_pass(pass);
-                find_turns(index);
-                pass_in_turn(pass, tick, index, target);
+    uint place = worker;
+    for (uint colour = k_waits_freely ? k_overflow_colour : first_colour; colour <= k_overflow_colour; ++colour) {
+        if (!k_waits_freely && colour_offsets[colour] == colour_offsets[colour + 1u]) continue;
+        uint end = end_of_places(colour);
+        bool is_end = false; // in the last round the first manifold is taken in hand
+        while (!is_end) {
+            is_end = place >= end;
+            uint index = is_end ? first : own_manifold_at(place);
+            // To ask others than the one in hand is a load. Those of one island have the same number of sub-steps.
+            if (index != k_none && (k_one_island || has_substep(index, tick))) {
+                take_in_hand(index);
+                if (!is_end && has_substep(index, tick)) {
+                    if (first == k_none) first = index;
+                    PassTarget target;
+                    if (pass != k_warm_start) target = target_of_pass(pass);
+                    find_turns(index);
+                    pass_in_turn(pass, tick, index, target);
+                }
             }
+            if (!is_end) place += workers();
         }
+        wait_for_workers();
     }
-    wait_for_workers();
 }

@@ -10,15 +10,8 @@
 
 // Which manifolds are the worker's, once end_index and first_colour are known.
 void deal_manifolds();
-// Its next one with a colour, or end_index.
-uint after(uint index);
-// Whether the overflow set is its, one manifold after the other.
-bool is_first_worker();
 // All are here, and what they have written before is seen.
 void wait_for_workers();
-// What follows the pass over a colour of hubs, and the wait until all see what that has changed.
-void finish_colour(uint colour, uint tick);
-void wait_for_finish();
 
 // One pass over all manifolds that have a sub-step at the tick, which begins behind a wait. It ends with one, but for a colour
 // of hubs at its end, for which the next pass waits, and for a pass that ends the tick, if integrate_own_bodies waits instead.
@@ -29,7 +22,6 @@ void note_unlike();
 void integrate_own_bodies(uint tick);
 
 uint end_index;     // of the manifolds with a colour; the overflow set follows
-uint own_end;       // the worker's manifolds come before
 uint first_colour;  // in use
 uint index_in_hand; // k_none: none
 uint like_substeps; // the number that most have, or are taken to have: where the solve is not multirate, the largest
@@ -66,23 +58,7 @@ bool has_substep(uint index, uint tick)
     return substep_at(tick, index == index_in_hand ? traits : cell_in_block(constraints, index, 4u).w) < its_substeps;
 }
 
-// ---- the worker's manifolds at a tick ----
-
-uint next_own(uint index)
-{
-    ++come_by;
-    return index < end_index ? after(index) : index + 1u;
-}
-
-// From this one on, what next_own gives, the first that has a sub-step.
-uint first_at(uint tick, uint index)
-{
-    for (;;) {
-        if (index >= own_end) return k_none;
-        if (has_substep(index, tick)) return index;
-        index = next_own(index);
-    }
-}
+// ---- the worker's manifolds ----
 
 void find_own_manifolds()
 {
@@ -93,7 +69,6 @@ void find_own_manifolds()
     index_in_hand = k_none;
     unlike_marks = uvec2(0u);
     deal_manifolds();
-    own_end = is_first_worker() ? colour_offsets[k_overflow_colour + 1u] : end_index;
 }
 
 void take_in_hand(uint index)
@@ -105,41 +80,6 @@ void take_in_hand(uint index)
 }
 
 // ---- passes ----
-
-// All manifolds from the colour `from` on, and of the worker's from `index` on, colour by colour with a wait after each; of a
-// colour of hubs the next reader waits (wait_for_finish). `first`: of the worker's, the one that the next pass begins with.
-void pass_over_colours(uint from, uint index, uint first, uint pass, uint tick)
-{
-    bool is_found = true;  // `index` is the worker's next manifold; or else a later one
-    bool is_ready = false; // it is in hand, and its target is known
-    PassTarget target;
-    uint begin = colour_offsets[from];
-    uint all_end = colour_offsets[k_overflow_colour + 1u];
-    for (uint next = from; begin < all_end; ++next) {
-        uint colour = next - 1u; // before the first one there is none to pass over: all make ready
-        uint end = colour_offsets[next];
-        bool is_passed_over = begin < end;
-        begin = end;
-        if (is_passed_over) wait_for_finish();
-        while (index < end || !is_ready) {
-            if (is_ready) {
-                pass_over_constraint(pass, tick, index, target);
-                index = next_own(index);
-                is_found = false;
-            }
-            if (!is_found) index = first_at(tick, index);
-            is_found = true;
-            is_ready = true;
-            take_in_hand(index == k_none ? first : index);
-            if (index == k_none) continue;
-            if (k_notes_unlike && pass == k_warm_start) note_whether_unlike();
-            if (pass != k_warm_start) target = target_of_pass(pass);
-        }
-        if (!is_passed_over) continue;
-        wait_for_workers();
-        if (k_hubs && is_hub_colour(colour)) finish_colour(colour, tick);
-    }
-}
 
 // `last`: the ticks, as many as the most sub-steps that a body has.
 void solve_substeps(uint last)
