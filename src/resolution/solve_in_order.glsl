@@ -194,7 +194,7 @@ uint count_earlier_fast(uint body, uint its_traits, uint colour, uint power)
 
 void note_unlike()
 {
-    if (!k_multirate_islands || index_in_hand >= colour_offsets[k_first_hub_colour]) return;
+    if (!k_multirate_islands || ticks_apart == 1u || index_in_hand >= colour_offsets[k_first_hub_colour]) return;
     list_fast_contact();
     note_fast_colour(body_a, traits, worker_colour);
     note_fast_colour(body_b, traits >> k_traits_of_b, worker_colour);
