@@ -115,8 +115,7 @@ class MultirateIslands : public OnDevice {};
 TEST_P(MultirateIslands, have_the_same_bits_on_every_device_and_path) {
     Settings hubs = eight_at_most();
     hubs.hub_contacts = 32;
-    // On hardware so long that an invocation of a single group has more contacts than it has marks for, and more fast
-    // ones than it lists.
+    // On hardware so long that an invocation of a single group has more contacts than it has marks for.
     const bool on_hardware = EngineRun(options_on(GetParam()), {}).simulation.state_device().loops_freely();
     for (const auto& [bodies, settings] :
          {std::pair{long_wall(on_hardware ? 760 : 190), eight_at_most()}, std::pair{table_on_legs(33, 3), hubs}}) {

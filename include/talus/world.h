@@ -17,7 +17,7 @@ namespace talus {
 struct StepReport {
     std::uint64_t step = 0;               ///< how many steps the world had made with this one
     std::uint32_t pairs = 0;              ///< of bodies that may touch, as no face keeps them apart; with a skin of
-                                          ///< 2.5 mm, when they were last searched
+                                          ///< up to 2.5 mm, when they were last searched
     std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors
     std::uint32_t contacts = 0;           ///< contact points
     std::uint32_t colours = 0;            ///< batches of the constraint graph, from the ground's on, which may be empty

@@ -7,14 +7,15 @@
 // micrometres a step; a thicker skin would make pairs of bricks with mortar between them.
 const float k_skin = 2.5e-3f; // m
 
-// Of both bodies it is more than k_axis_persistence, by which contacts may reach further than margins say.
+// Of both bodies, where all are searched for, it is more than k_axis_persistence, by which contacts may reach further than margins
+// say: docs/decisions/pairs-by-faces.md.
 const float k_least_skin = 7.5e-4f; // m
 
 // What of the skin is left to the rounding of all that is computed from it (m).
 const float k_rounding = 2.5e-4f;
 
 // What moves leaves its box soon in any case, so its way of a step, which is in its margin, counts as a part of the skin. With all of
-// it bricks that fall by a millimetre once they are set up were pairs across their mortar: twice as many as else, which all had to have room.
+// it bricks that fall by a millimetre once they are set up were pairs across their mortar: twice as many as else, all with their room.
 inline OrientedBox with_skin(OrientedBox box, Parameters p)
 {
     precise float at_rest = 0.5f * p.speculative_distance + k_skin;

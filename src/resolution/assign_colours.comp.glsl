@@ -294,16 +294,17 @@ void begin_all_again(bool by_class, uint first, uint stride, uint entry_count)
     if (first == 0u) counters[k_counter_colour_demand] = 0u; // all have read it
 }
 
-// Whether all get colours, for the how manieth time: by rank at first; where all are new, again by class if a few colours were
-// enough, and by rank once more if they are not enough then. Compilers put what is called into each place that calls it: so there is one.
-bool is_time(uint time, bool all_new)
+// Whether all get colours this time: by rank at first; where all are new, again by class if a few colours were enough, and by rank
+// once more if they are not enough then. In uniform control flow: it may wait for workers. Compilers put what is called into each place
+// that calls it, so there is one.
+bool colours_all(uint time, bool all_new)
 {
     if (time == 0u) return true;
-    if (!all_new) return false;
+    if (!all_new || time > k_times_again + 1u) return false;
+    if (time > 1u && time <= k_times_again) return true;
     wait_for_workers();
     bool are_many = counters[k_counter_colour_demand] > k_many_colours;
-    if (time == 1u) return !are_many;
-    return time <= k_times_again || (time == k_times_again + 1u && are_many);
+    return are_many == (time > 1u);
 }
 
 void main()
@@ -333,7 +334,7 @@ void main()
     }
     bool all_new = counters[k_counter_colour_demand] == 0u && !has_hubs;
     wait_for_workers();
-    for (uint time = 0u; is_time(time, all_new); ++time) {
+    for (uint time = 0u; colours_all(time, all_new); ++time) {
         if (time > 0u) begin_all_again(time <= k_times_again, first, stride, entry_count);
         colour_in_rounds(first, stride, entry_count);
         note_colours(first, stride, entry_count);

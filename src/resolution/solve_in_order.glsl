@@ -10,7 +10,7 @@
 //
 // What a GPU runs in step is at manifolds of one colour at a time, none of which waits for another one.
 //
-// For solve_persistent.glsl, behind solve_substeps.glsl and grid_barrier.glsl, which defines
+// For solve_persistent.glsl, behind solve_substeps.glsl and grid_barrier.glsl. The kernel defines
 
 // What follows the pass over a colour of hubs, and the wait until all see what that has changed.
 void finish_colour(uint colour, uint tick);
@@ -232,7 +232,7 @@ bool is_turn()
 // one after the other.
 bool is_alone() { return !k_waits_freely && gl_NumWorkGroups.x == 1u; }
 
-uint looks; // at the contact in hand
+uint looks_in_hand; // at the contact in hand
 
 // Whether it is the turn of the contact in hand, or somebody has given up. What runs in step waits here together, if none of it waits
 // for another one. Else each looks once, as those whose turn it is have to go on. Some drivers end a loop after so many rounds.
@@ -240,10 +240,10 @@ bool wait_for_turn(bool waits_together)
 {
     bool fits = is_turn();
     if (is_alone()) return fits;
-    bool is_to_look = !fits && looks_again(looks);
+    bool is_to_look = !fits && looks_again(looks_in_hand);
     while (waits_together && is_to_look) {
         fits = is_turn();
-        is_to_look = !fits && looks_again(looks);
+        is_to_look = !fits && looks_again(looks_in_hand);
     }
     if (is_to_look) return false;
     if (!fits) give_up();
@@ -338,7 +338,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     while (goes_on(all ? place < end : listed != k_none)) {
         if (all ? place >= end : listed == k_none) continue;
         uint index = all ? manifold_at(place) : manifold_in_list(listed);
-        FastContact fast;
+        FastContact fast = FastContact(k_none, 0u);
         if (!all) fast = fast_contacts[listed];
         if (index != k_none && (asks_late || (all ? has_substep(index, tick) : has_substep(fast, tick)))) {
             take_in_hand(index);
@@ -349,7 +349,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
                     else
                         target = target_of_pass(pass);
                     find_earlier(tick);
-                    looks = 0u;
+                    looks_in_hand = 0u;
                     is_ready = true;
                     if (first == k_none) first = index;
                 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A pass in which the contacts of a work group wait for each other one by one: each for those of earlier colours at its two bodies,
-// and for no other. The order at each body is that of the colours, and so the bits are; but a barrier after each colour takes as
-// long as the slowest contact, and as the next manifold that somebody makes ready. See docs/decisions/contacts-wait-one-by-one.md;
-// solve_in_order.glsl does so across groups.
+// A pass over the contacts of a work group. Where its invocations run side by side (k_waits_freely) contacts wait for each other one
+// by one: each for those of earlier colours at its two bodies, and for no other. Else there is a barrier after each colour. The order at
+// each body is that of the colours in both, and so the bits are; but a barrier takes as long as the slowest contact, and as the next
+// manifold that somebody makes ready. See docs/decisions/contacts-wait-one-by-one.md; solve_in_order.glsl does so across groups.
 //
-// For solve_in_group.glsl, behind solve_substeps.glsl. Needs a device on which invocations of a group run side by side,
-// k_waits_freely.
+// For solve_in_group.glsl, behind solve_substeps.glsl.
 
 // Where contacts wait, what runs in step is to have contacts of one colour; but of several small islands there are few of a colour.
 const uint k_dealt_together = k_waits_freely && k_one_island ? k_in_step : 1u;
@@ -113,10 +112,10 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     for (uint colour = k_waits_freely ? k_overflow_colour : first_colour; colour <= k_overflow_colour; ++colour) {
         if (!k_waits_freely && colour_offsets[colour] == colour_offsets[colour + 1u]) continue;
         uint end = end_of_places(colour);
-        bool is_end = false; // in the last round the first manifold is taken in hand
+        bool is_end = false; // in the last round of the last stage the first manifold is taken in hand
         while (!is_end) {
             is_end = place >= end;
-            uint index = is_end ? first : own_manifold_at(place);
+            uint index = !is_end ? own_manifold_at(place) : end == end_place ? first : k_none;
             // To ask others than the one in hand is a load. Those of one island have the same number of sub-steps.
             if (index != k_none && (k_one_island || has_substep(index, tick))) {
                 take_in_hand(index);

@@ -9,7 +9,7 @@
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
 // HubChanges, FastBodies, FastContacts, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; Arrivals as plan_colours leaves it.
-// Overflow: none; does nothing after a step that did not fit.
+// Overflow: none; does nothing after a step that did not fit. It has 16 storage blocks, which is as many as there may be.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/body.shared.glsl"

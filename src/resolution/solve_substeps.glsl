@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // All sub-steps of some bodies and the manifolds between them, in one kernel: its invocations are workers that share both among
 // themselves. The passes and their order are those of for_each_pass in contact_passes.h, and so are the bits. A worker keeps the
-// manifold that it has in hand from pass to pass, and makes the next one ready before it waits. Each step of the work stands here
-// once, as compilers put a function's code into every place that calls it.
+// manifold that it has in hand from pass to pass. Each step of the work stands here once, as compilers put a function's code into
+// every place that calls it.
 // Before this file the kernel includes contact_passes.glsl and body_passes.glsl, has colour_offsets[] as the buffer
 // ColourOffsets does, and says
 //   const bool k_notes_unlike: workers note which manifolds may not have as many sub-steps as most

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The records that live in buffers, written once for C++ and GLSL. Every record is a row of 16-byte cells: a vec3 and a
-// scalar, or four scalars; but for two of 8 bytes. The letters beside a record's buffer in buffers.h (f float, u uint) repeat its layout.
+// scalar, or four scalars; but for two of 8 bytes. The letters beside a record's buffer in buffers.h (f float, u uint) repeat
+// its layout.
 
 // ---- bodies: one record of each kind a body slot ----
 
