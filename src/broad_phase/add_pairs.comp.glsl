@@ -64,7 +64,7 @@ void main()
     for (uint i = me; i < new_count; i += gl_WorkGroupSize.x)
         add(new_pairs[i], list_count);
     if (me < stray_count) {
-        OrientedBox box = with_skin(box_now(strays[me]), parameters);
+        OrientedBox box = box_with_skin(strays[me]);
         oriented_boxes[strays[me]] = pack(box);
         aabbs[strays[me]] = pack(compute_aabb(box));
     }

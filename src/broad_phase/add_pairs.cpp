@@ -30,7 +30,7 @@ static void add_pairs_on_cpu(CpuState& state, const Launch&) {
     counters[k_counter_pair_demand] += new_count;
     counters[k_counter_added_pairs] += new_count;
     for (const uint stray : strays) {
-        state.oriented_boxes[stray] = with_skin(box_now(state, stray), state.parameters);
+        state.oriented_boxes[stray] = box_with_skin(state, stray);
         state.aabbs[stray] = compute_aabb(state.oriented_boxes[stray]);
     }
 }

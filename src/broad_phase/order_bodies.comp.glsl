@@ -84,7 +84,7 @@ void main()
     if (!strays) return;
     if (me == 0u) counters[k_counter_search_count] = body_count;
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x) {
-        OrientedBox box = with_skin(box_now(body), parameters);
+        OrientedBox box = box_with_skin(body);
         oriented_boxes[body] = pack(box);
         aabbs[body] = pack(compute_aabb(box));
     }

@@ -60,7 +60,7 @@ void find_near(uint body)
     OrientedBox oriented = unpack(oriented_boxes[body]);
     Aabb box = unpack(aabbs[body]);
     if (strays_too) {
-        oriented = with_skin(box_now(body), parameters);
+        oriented = box_with_skin(body);
         box = compute_aabb(oriented);
     }
     for (uint i = 0u; i < stray_count; ++i) {
@@ -79,7 +79,7 @@ void main()
     if (stray_count == 0u) return;
     if (me < stray_count) {
         stray_bodies[me] = strays[me];
-        stray_boxes[me] = with_skin(box_now(strays[me]), parameters);
+        stray_boxes[me] = box_with_skin(strays[me]);
         stray_aabbs[me] = compute_aabb(stray_boxes[me]);
     }
     barrier();

@@ -24,13 +24,12 @@ static void search_strays_on_cpu(CpuState& state, const Launch&) {
             counters[k_counter_search_count] = state.parameters.body_count;
     };
     for (const uint stray : strays) {
-        const OrientedBox oriented = with_skin(box_now(state, stray), state.parameters);
+        const OrientedBox oriented = box_with_skin(state, stray);
         const Aabb box = compute_aabb(oriented);
         for (uint body = 0; body < state.parameters.body_count; ++body) {
             const bool strays_too = is_stray(body);
             if (strays_too && body <= stray) continue;
-            const OrientedBox other =
-                strays_too ? with_skin(box_now(state, body), state.parameters) : state.oriented_boxes[body];
+            const OrientedBox other = strays_too ? box_with_skin(state, body) : state.oriented_boxes[body];
             const Aabb other_box = strays_too ? compute_aabb(other) : state.aabbs[body];
             if (is_candidate(box, other_box) && !faces_part(oriented, other))
                 note(state.near_pairs, k_counter_near_pairs, make_pair(stray, body));

@@ -23,7 +23,7 @@ void main()
 {
     uint body = item_index();
     if (body >= counters[k_counter_search_count]) return;
-    OrientedBox box = with_skin(box_now(body), parameters);
+    OrientedBox box = box_with_skin(body);
     oriented_boxes[body] = pack(box);
     aabbs[body] = pack(compute_aabb(box));
 }

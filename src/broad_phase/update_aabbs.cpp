@@ -7,7 +7,7 @@ namespace talus::engine {
 
 static void update_aabbs_on_cpu(CpuState& state, const Launch&) {
     state.parallel(state.counters[k_counter_search_count], [&](uint body) {
-        const OrientedBox box = with_skin(box_now(state, body), state.parameters);
+        const OrientedBox box = box_with_skin(state, body);
         state.oriented_boxes[body] = box;
         state.aabbs[body] = compute_aabb(box);
     });

@@ -131,7 +131,7 @@ void look_at_kept(uint entry)
     uint edges_b = edges_of(manifold.body_b);
     bool is_of_hub = is_hub(edges_a, parameters) || is_hub(edges_b, parameters);
     if (!is_of_hub && gives_up(manifold.colour, edges_a, edges_b)) return;
-    atomicMax(counters[k_counter_colour_demand], colours_down_to(manifold.colour));
+    raise_counter(k_counter_colour_demand, colours_down_to(manifold.colour));
     uncoloured[entry] = k_none;
 }
 

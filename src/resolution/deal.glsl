@@ -12,12 +12,10 @@ uint worker; // of these
 shared uint first_places[k_max_colours + 1u]; // of each colour; then the end
 uint worker_colour;                           // of the worker's present place
 
-uint count_of(uint colour) { return end_of(colour) - begin_of(colour); }
+uint round_up(uint count, uint multiple) { return (count + multiple - 1u) / multiple * multiple; }
 
-uint places_of(uint colour)
-{
-    return (count_of(colour) + k_dealt_together - 1u) / k_dealt_together * k_dealt_together;
-}
+uint count_of(uint colour) { return end_of(colour) - begin_of(colour); }
+uint places_of(uint colour) { return round_up(count_of(colour), k_dealt_together); }
 
 // By all invocations of a group.
 void find_places()
@@ -55,7 +53,7 @@ void find_end_of_places(bool has_overflow)
 {
     uint overflow = has_overflow ? colour_offsets[k_overflow_colour + 1u] - end_index : 0u;
     end_place = first_places[k_max_colours];
-    overflow_place = overflow == 0u ? end_place : (end_place + workers() - 1u) / workers() * workers();
+    overflow_place = overflow == 0u ? end_place : round_up(end_place, workers());
     if (overflow > 0u) end_place = overflow_place + overflow * workers();
 }
 

@@ -48,14 +48,12 @@ inline uint substep_at(uint tick, uint traits)
     return choose((substep << r) == tick, substep, k_none);
 }
 
-// FastContact::rate
-inline uint rate_of(uint substeps, uint traits) { return substeps | slowness(traits) << 16u; }
+// FastContact::rate: the number, and the rate where traits have it.
+inline uint rate_of(uint substeps, uint traits) { return substeps | ((traits >> k_slowness_shift) << k_slowness_shift); }
 
 inline bool has_substep(FastContact contact, uint tick)
 {
-    uint r = contact.rate >> 16u;
-    uint substep = tick >> r;
-    return (substep << r) == tick && substep < (contact.rate & 0xffffu);
+    return substep_at(tick, contact.rate) < number_of_substeps(contact.rate);
 }
 
 // Of what a contact changes about a body in its own sub-step, the part that this one of the body's has. A power of two.

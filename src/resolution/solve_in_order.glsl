@@ -150,7 +150,7 @@ void deal_manifolds()
     find_end_of_places(gl_WorkGroupID.x == 0u);
 }
 
-uint first_place_from(uint end) { return worker + (max(end, worker) - worker + workers() - 1u) / workers() * workers(); }
+uint first_place_from(uint end) { return worker + round_up(max(end, worker) - worker, workers()); }
 
 // Of what is listed, one after the other.
 uint manifold_in_list(uint index)
@@ -298,6 +298,7 @@ BodyVelocity load_settled_velocity(uint body, uint its_traits)
 }
 
 // Behind those in order: the colours of hubs and the overflow set, with a wait behind each. `place`: the worker's first one of theirs.
+// In one loop with the pass in order the two took registers from each other (docs/performance.md).
 void pass_over_hubs_and_overflow(uint place, uint pass, uint tick)
 {
     for (uint colour = k_first_hub_colour; colour <= k_overflow_colour; ++colour) {
