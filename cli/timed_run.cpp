@@ -35,8 +35,15 @@ Statistics statistics_of(std::vector<double> samples) {
     return statistics;
 }
 
+/// The first steps are measured too, and shall be made as all others.
+static WorldOptions with_all_kernels(WorldOptions options) {
+    options.wait_for_kernels = true;
+    return options;
+}
+
 TimedRun::TimedRun(scenes::Scene scene, const Settings& settings, const WorldOptions& options, std::uint32_t steps)
-    : source(std::move(scene)), simulated(settings, options), planned_steps(steps), profile(options.profile) {
+    : source(std::move(scene)), simulated(settings, with_all_kernels(options)), planned_steps(steps),
+      profile(options.profile) {
     const bool runs_ahead = simulated.device().kind == DeviceKind::Gpu;
     sample_interval = runs_ahead ? interval_of_samples(steps) : 1u;
 

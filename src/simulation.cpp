@@ -125,37 +125,44 @@ void Trust::was_wrong() {
     patience = std::min(2 * patience, k_most_patience);
 }
 
-Simulation::Simulation(const WorldOptions& options) {
-    DeviceKind kind = options.device;
-    std::string why = "asked for";
-    if (kind == DeviceKind::Auto) {
+Devices make_devices(const WorldOptions& options) {
+    Devices devices;
+    devices.kind = options.device;
+    devices.why = "asked for";
+    if (devices.kind == DeviceKind::Auto) {
         const std::vector<DeviceInfo> probes = probe_gl();
         const auto hardware =
             std::ranges::find_if(probes, [](const DeviceInfo& p) { return !p.in_software && !p.name.empty(); });
         const bool has_gpu = options.gl_context == GlContext::Current || hardware != probes.end();
-        kind = has_gpu ? DeviceKind::Gpu : DeviceKind::Cpu;
-        why = has_gpu ? "there is a GPU"
-                      : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
-                                                : probes.front().name.empty()
-                                                    ? probes.front().why
-                                                    : "OpenGL runs in software here (" + probes.front().name + ")");
+        devices.kind = has_gpu ? DeviceKind::Gpu : DeviceKind::Cpu;
+        devices.why = has_gpu
+                          ? "there is a GPU"
+                          : "no GPU was found: " + (probes.empty() ? std::string("EGL lists no device")
+                                                    : probes.front().name.empty()
+                                                        ? probes.front().why
+                                                        : "OpenGL runs in software here (" + probes.front().name + ")");
     }
-    if (kind != DeviceKind::Cpu)
-        gpu = make_gl_device(options.gl_context, options.profile, options.gl_debug, options.program_cache);
-    if (kind != DeviceKind::Gpu) cpu = make_cpu_device(options.threads, options.profile);
+    if (devices.kind != DeviceKind::Cpu)
+        devices.gpu = make_gl_device(options.gl_context, options.profile, options.gl_debug, options.program_cache);
+    if (devices.kind != DeviceKind::Gpu) devices.cpu = make_cpu_device(options.threads, options.profile);
+    return devices;
+}
+
+Simulation::Simulation(const WorldOptions& options, Devices devices)
+    : gpu(std::move(devices.gpu)), cpu(std::move(devices.cpu)), waits_for_kernels(options.wait_for_kernels) {
     placement.detection = gpu ? gpu.get() : cpu.get();
     placement.resolution = cpu ? cpu.get() : gpu.get();
 
     info = placement.detection->info();
-    info.kind = kind;
-    info.why = why;
+    info.kind = devices.kind;
+    info.why = devices.why;
     if (placement.hybrid()) {
         const DeviceInfo host = cpu->info();
         info.name += " and " + host.name;
         info.threads = host.threads;
     }
 
-    log(LogLevel::Info, fmt::format("the world runs on {} ({}): {}", info.name, info.driver, why));
+    log(LogLevel::Info, fmt::format("the world runs on {} ({}): {}", info.name, info.driver, info.why));
 
     const auto first = [](uint wanted, uint fallback) { return wanted > 0 ? wanted : fallback; };
     grow_everywhere(BufferId::Counters, k_counter_words);
@@ -327,7 +334,7 @@ void Simulation::write_body_count(uint slots) {
     enqueued_slots = slots;
 }
 
-StepPlan Simulation::plan_in_launches(const Population& population) const {
+StepPlan Simulation::plan_in_launches(const Population& population, bool groups) const {
     const Passes passes = passes_of(settings);
     StepPlan now = plan;
     now.body_count = population.slots;
@@ -338,7 +345,7 @@ StepPlan Simulation::plan_in_launches(const Population& population) const {
     if (now.broad_phase == BroadPhase::Auto) now.broad_phase = now.small ? BroadPhase::SweepAndPrune : BroadPhase::Bvh;
     now.one_island = population.some_kinematic;
     const bool one_group_each = now.small && plan.hub_capacity == 0;
-    now.in_groups = (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
+    now.in_groups = groups && (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
     now.singles = plan.singles && now.has_groups();
     now.bounces = population.some_bounce;
     now.kinematic = population.some_kinematic;
@@ -367,12 +374,28 @@ static std::uint64_t persistent_workers(const StepPlan& plan, std::uint64_t solv
     return std::max(much_beside ? launched / k_manifolds_each_beside : 2 * launched, least);
 }
 
+bool Simulation::may_launch(const Kernel& kernel) const {
+    return waits_for_kernels || placement.resolution->is_ready(kernel);
+}
+
 StepPlan Simulation::plan_step(const Population& population) const {
-    StepPlan now = plan_in_launches(population);
+    StepPlan now = plan_in_launches(population, true);
+    if (now.in_groups && !may_launch(group_solver(now))) {
+        now = plan_in_launches(population, false);
+        now.awaits_kernels = true;
+    }
+    if (now.singles && !may_launch(single_solver(now))) {
+        now.singles = false;
+        now.awaits_kernels = true;
+    }
     if (now.hub_capacity > 0) now.weighing_groups = std::max(placement.resolution->resident_groups(weigh_hubs), 1u);
     if (!now.small) now.colouring_groups = std::max(placement.resolution->resident_groups(assign_colours), 1u);
-    if (!now.may_be_persistent()) return now;
+    if (!now.may_be_persistent() || !placement.resolution->loops_freely()) return now;
     const Kernel& solver = persistent_solver(now);
+    if (!may_launch(solver)) {
+        now.awaits_kernels = true;
+        return now;
+    }
     const uint groups = placement.resolution->resident_groups(solver);
     const std::uint64_t invocations = std::uint64_t{groups} * solver.items_a_group;
     const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
@@ -390,23 +413,25 @@ StepPlan Simulation::plan_step(const Population& population) const {
 
 void Simulation::prepare_kernels(const Population& population) {
     if (kernels_prepared || !gpu) return;
-    StepPlan first = plan_in_launches(population);
+    StepPlan quickest = plan_in_launches(population, true);
     // How many groups it will have is found by a trial of the kernel itself.
-    if (first.may_be_persistent() && gpu->loops_freely()) first.persistent_groups = 1;
-    // What a large world may need at any time: a driver compiles such a kernel for a second or two.
-    first.singles = first.has_groups();
+    if (quickest.may_be_persistent() && gpu->loops_freely()) quickest.persistent_groups = 1;
+    // What a large world may need at any time.
+    quickest.singles = quickest.has_groups();
+    StepPlan first = waits_for_kernels ? quickest : plan_in_launches(population, false);
     KernelList list(*gpu);
-    const auto note = [&](Stage stage) {
-        if (&placement.of(stage) == gpu.get()) run_stage(list, stage, first);
+    const auto note = [&](Stage stage, const StepPlan& by) {
+        if (&placement.of(stage) == gpu.get()) run_stage(list, stage, by);
     };
-    // The longest kernels first: a driver that compiles side by side is done when the last one is.
-    note(Stage::Solve);
-    note(Stage::NarrowPhase);
+    // What the first step waits for comes first, and of that what a driver compiles longest.
+    note(Stage::NarrowPhase, first);
+    note(Stage::Solve, first);
     for (std::size_t i = 0; i < k_stage_count; ++i)
-        note(Stage{static_cast<int>(i)});
+        note(Stage{static_cast<int>(i)}, first);
     first.search = Search::None;
-    note(Stage::BroadPhase);
+    note(Stage::BroadPhase, first);
     if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
+    note(Stage::Solve, quickest);
     gpu->prepare(list.kernels);
     kernels_prepared = true;
 }
@@ -420,6 +445,11 @@ void Simulation::enqueue(Pending entry) {
     now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || settings.sleeping ||
                       placement.hybrid() || !has_the_graph_of(now, newest_plan);
     now.makes_graph = now.other_graph || !graph_lasts.holds();
+    if (now.awaits_kernels != newest_plan.awaits_kernels)
+        log(LogLevel::Info, now.awaits_kernels
+                                ? "the quickest kernels are still being compiled: until they are ready, a "
+                                  "step takes others, with the same bits"
+                                : "the quickest kernels are ready");
     newest_plan = now;
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);

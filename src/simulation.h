@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <talus/world.h>
@@ -33,10 +34,22 @@ private:
     uint patience = k_first_patience;
 };
 
+/// Where a simulation runs, and why there.
+struct Devices {
+    std::unique_ptr<Device> gpu; ///< at least one of the two is there
+    std::unique_ptr<Device> cpu;
+    DeviceKind kind = DeviceKind::Auto;
+    std::string why;
+};
+
+/// As the options say. Throws Error where the device cannot be had.
+Devices make_devices(const WorldOptions&);
+
 class Simulation {
 public:
     /// Throws Error where the device cannot be had.
-    explicit Simulation(const WorldOptions&);
+    explicit Simulation(const WorldOptions& options) : Simulation(options, make_devices(options)) {}
+    Simulation(const WorldOptions&, Devices);
     ~Simulation();
 
     const DeviceInfo& device() const { return info; }
@@ -122,8 +135,10 @@ private:
     /// With nothing on its way.
     void apply_now(const Population&, const BodyChanges&);
     void write_body_count(uint slots);
-    /// The next step's plan with a launch for each colour and pass.
-    StepPlan plan_in_launches(const Population&) const;
+    /// The next step's plan with a launch for each colour and pass, but for islands that work groups solve, if wanted.
+    StepPlan plan_in_launches(const Population&, bool groups) const;
+    /// Whether a step may launch one of the kernels that it can do without: they take a driver longest to compile.
+    bool may_launch(const Kernel&) const;
     /// Before the first step: the GPU's driver may compile all of its kernels side by side.
     void prepare_kernels(const Population&);
     void grow_everywhere(BufferId, std::size_t elements);
@@ -149,7 +164,8 @@ private:
     Settings settings;
     StepPlan plan;
     uint body_capacity = 0;
-    uint enqueued_slots = 0; ///< body slots of the newest step
+    uint enqueued_slots = 0;        ///< body slots of the newest step
+    bool waits_for_kernels = false; ///< WorldOptions::wait_for_kernels
     bool kernels_prepared = false;
     Transfers transferred;
 

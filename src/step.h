@@ -49,7 +49,8 @@ struct StepPlan {
     uint least_multirate = k_least_multirate; ///< bodies, where islands may be multirate
     uint colouring_groups = 1;                ///< that colour new contacts, waiting for each other
     uint weighing_groups = 1;                 ///< that find the loads on hubs where no graph is made, in the same way
-    uint persistent_groups = 0; ///< that solve all else in one launch; 0: a launch for each colour and pass
+    uint persistent_groups = 0;  ///< that solve all else in one launch; 0: a launch for each colour and pass
+    bool awaits_kernels = false; ///< these launches take the place of a quicker kernel, which is not ready
     uint least_substeps = 0;
     uint most_substeps = 0;
     uint substep_capacity = 1; ///< sub-steps, or ticks, that get launches: some, until it is known that none are needed

@@ -31,6 +31,7 @@ inline WorldOptions options_on(DeviceKind kind) {
     WorldOptions options;
     options.device = kind;
     options.threads = kind == DeviceKind::Gpu ? 0 : 2;
+    options.wait_for_kernels = true; // so that a test is of the same kernels whenever it runs
     return options;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -23,7 +24,11 @@ inline constexpr std::array<engine::uint, 5> k_numbers_of_groups{engine::k_none,
 class EngineRun {
 public:
     EngineRun(const WorldOptions& options, const std::vector<BodyDefinition>& definitions, const Settings& wanted = {})
-        : settings(wanted), simulation(options) {
+        : EngineRun(options, engine::make_devices(options), definitions, wanted) {}
+
+    EngineRun(const WorldOptions& options, engine::Devices devices, const std::vector<BodyDefinition>& definitions,
+              const Settings& wanted = {})
+        : settings(wanted), simulation(options, std::move(devices)) {
         using engine::BufferId;
         simulation.set_settings(settings);
         for (const BodyDefinition& definition : definitions)

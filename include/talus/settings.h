@@ -101,6 +101,10 @@ struct WorldOptions {
     /// Keep the kernels' compiled programs in the user's cache folder ($XDG_CACHE_HOME or ~/.cache, talus/), so that
     /// later worlds start at once. The environment variable TALUS_PROGRAM_CACHE=0 turns it off too.
     bool program_cache = true;
+    /// Wait for all kernels before the first step, ten seconds or more on some drivers where no programs are kept. Else
+    /// the first steps take what is compiled sooner, a launch for each colour and pass: the same bits, and slower. For
+    /// measuring.
+    bool wait_for_kernels = false;
     Capacities capacities; ///< how large buffers are at first
 };
 

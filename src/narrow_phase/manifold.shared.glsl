@@ -12,17 +12,22 @@ inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPo
     if (type_a == k_shape_box && type_b == k_shape_box) {
         return collide_boxes(make_box_pair(pose_a, shape_a, pose_b, shape_b), carriers, known, max_separation);
     }
-    if (type_a == k_shape_box) {
-        return collide_box_sphere(rotation_axes(pose_a.rotation), shape_a.half_extents, shape_b.half_extents.x, offset,
-                                  max_separation);
+    if (type_a != k_shape_box && type_b != k_shape_box)
+        return collide_spheres(shape_a.half_extents.x, shape_b.half_extents.x, offset, max_separation);
+    vec4 rotation_of_box = pose_a.rotation;
+    BodyShape box = shape_a;
+    BodyShape sphere = shape_b;
+    vec3 from_box = offset;
+    if (type_a != k_shape_box) {
+        rotation_of_box = pose_b.rotation;
+        box = shape_b;
+        sphere = shape_a;
+        from_box = vec3(-offset.x, -offset.y, -offset.z);
     }
-    if (type_b == k_shape_box) {
-        vec3 from_b = vec3(-offset.x, -offset.y, -offset.z);
-        return swap_bodies(collide_box_sphere(rotation_axes(pose_b.rotation), shape_b.half_extents,
-                                              shape_a.half_extents.x, from_b, max_separation),
-                           from_b);
-    }
-    return collide_spheres(shape_a.half_extents.x, shape_b.half_extents.x, offset, max_separation);
+    ContactGeometry g = collide_box_sphere(rotation_axes(rotation_of_box), box.half_extents, sphere.half_extents.x, from_box,
+                                           max_separation);
+    if (type_a != k_shape_box) g = swap_bodies(g, from_box);
+    return g;
 }
 
 // Where two bodies ask for different rules, the lower number wins.

@@ -101,6 +101,15 @@ const Kernel& persistent_solver(const StepPlan& plan) {
     return plan.may_be_multirate() ? solve_multirate : solve_persistent;
 }
 
+const Kernel& group_solver(const StepPlan& plan) {
+    if (plan.small) return plan.bounces ? solve_bouncing_islands : solve_islands;
+    return plan.bounces ? solve_bouncing_groups : solve_island_groups;
+}
+
+const Kernel& single_solver(const StepPlan& plan) {
+    return plan.bounces ? solve_bouncing_singles : solve_single_islands;
+}
+
 void solve(Device& device, const StepPlan& plan) {
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
     const Kernel& persistent = persistent_solver(plan);
@@ -115,13 +124,9 @@ void solve(Device& device, const StepPlan& plan) {
                     .overlaps_next = plan.in_groups});
     }
     if (plan.in_groups) {
-        const Kernel& of_small = plan.bounces ? solve_bouncing_islands : solve_islands;
-        const Kernel& of_large = plan.bounces ? solve_bouncing_groups : solve_island_groups;
         if (plan.singles)
-            device.run({.kernel = plan.bounces ? solve_bouncing_singles : solve_single_islands,
-                        .slot = k_dispatch_islands,
-                        .overlaps_next = true});
-        device.run({.kernel = plan.small ? of_small : of_large, .slot = k_dispatch_islands});
+            device.run({.kernel = single_solver(plan), .slot = k_dispatch_islands, .overlaps_next = true});
+        device.run({.kernel = group_solver(plan), .slot = k_dispatch_islands});
     }
     if (!plan.needs_launches() || plan.substep_capacity == 0 || plan.persistent_groups > 0) return;
     for_each_pass(

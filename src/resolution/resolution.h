@@ -22,6 +22,10 @@ void solve(Device&, const StepPlan&);
 void store_impulses(Device&, const StepPlan&);
 /// The kernel that makes all passes in one launch.
 const Kernel& persistent_solver(const StepPlan&);
+/// The kernel whose work groups solve islands: each of a small world, or the little ones of a large world.
+const Kernel& group_solver(const StepPlan&);
+/// The one whose work groups solve an island of middling size each.
+const Kernel& single_solver(const StepPlan&);
 
 extern const Kernel begin_graph;
 extern const Kernel keep_colours;

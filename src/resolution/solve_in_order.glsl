@@ -331,7 +331,6 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     uint place = all ? worker : first_place_from(end);
     uint listed = first_fast;
     uint first = k_none; // of the worker's manifolds; the next pass begins with it
-    bool asks_late = all && ticks_apart > 1u; // where a mark means a sub-step more often than not
     bool is_ready = false;
     PassTarget target;
     come_by = (place - worker) / workers();
@@ -341,23 +340,21 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
         uint index = all ? manifold_at(place) : manifold_in_list(listed);
         FastContact fast = FastContact(k_none, 0u);
         if (!all) fast = fast_contacts[listed];
-        if (index != k_none && (asks_late || (all ? has_substep(index, tick) : has_substep(fast, tick)))) {
+        if (index != k_none && (all ? has_substep(index, tick) : has_substep(fast, tick))) {
             take_in_hand(index);
-            if (!asks_late || has_substep(index, tick)) {
-                if (!is_ready) {
-                    if (pass == k_warm_start)
-                        note_whether_unlike();
-                    else
-                        target = target_of_pass(pass);
-                    find_earlier(tick);
-                    looks_in_hand = 0u;
-                    is_ready = true;
-                    if (first == k_none) first = index;
-                }
-                if (!wait_for_turn(all)) continue;
-                pass_in_turn(pass, index, target);
-                is_ready = false;
+            if (!is_ready) {
+                if (pass == k_warm_start)
+                    note_whether_unlike();
+                else
+                    target = target_of_pass(pass);
+                find_earlier(tick);
+                looks_in_hand = 0u;
+                is_ready = true;
+                if (first == k_none) first = index;
             }
+            if (!wait_for_turn(all)) continue;
+            pass_in_turn(pass, index, target);
+            is_ready = false;
         }
         if (all) {
             place += workers();

@@ -204,6 +204,13 @@ void GlDevice::prepare(std::span<const Kernel* const> kernels) {
         begun_program(*kernel);
 }
 
+bool GlDevice::is_ready(const Kernel& kernel) {
+    make_current();
+    GlProgram& begun = begun_program(kernel);
+    if (!begun.finished() && begun.is_compiled()) begun.finish(objects_->cache);
+    return begun.finished();
+}
+
 void GlDevice::run(const Launch& launch) {
     try {
         run_kernel(launch);

@@ -37,6 +37,8 @@ public:
     void swap(BufferId, BufferId) override;
     void set_parameters(const Parameters&) override;
     void prepare(std::span<const Kernel* const>) override;
+    /// Throws Error where the kernel is faulty.
+    bool is_ready(const Kernel&) override;
     void run(const Launch&) override;
     void leave() override;
     void begin_stage(Stage) override;
