@@ -41,13 +41,12 @@ constexpr uint k_manifolds_each_beside = 4;
 constexpr uint k_demand_window = 64;
 
 constexpr std::array k_body_buffers{
-    BufferId::Poses,          BufferId::Velocities,   BufferId::Shapes,       BufferId::Properties,
-    BufferId::Loads,          BufferId::Aabbs,        BufferId::SortKeys,     BufferId::SortValues,
-    BufferId::PairCounts,     BufferId::SpreadSums,   BufferId::SortedAabbs,  BufferId::Inertias,
-    BufferId::WarmStarts,     BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,
-    BufferId::Hubs,           BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,
-    BufferId::IslandFill,     BufferId::IslandBodies, BufferId::IslandPlaces, BufferId::OrientedBoxes,
-    BufferId::LaunchedBodies,
+    BufferId::Poses,        BufferId::Velocities,   BufferId::Shapes,        BufferId::Properties,
+    BufferId::Loads,        BufferId::Aabbs,        BufferId::SortKeys,      BufferId::SortValues,
+    BufferId::PairCounts,   BufferId::SortedAabbs,  BufferId::Inertias,      BufferId::WarmStarts,
+    BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,      BufferId::Hubs,
+    BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,  BufferId::IslandFill,
+    BufferId::IslandBodies, BufferId::IslandPlaces, BufferId::OrientedBoxes, BufferId::LaunchedBodies,
 };
 
 constexpr std::array k_pair_buffers{
@@ -204,6 +203,7 @@ void Simulation::reserve_bodies(uint count) {
     const uint capacity = std::max(count, with_headroom(body_capacity, body_capacity));
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
+    grow_everywhere(BufferId::SpreadSums, capacity / k_spread_group + 1);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
     grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words} * capacity);
     if (settings.sleeping) grow_everywhere(BufferId::Rests, capacity);
