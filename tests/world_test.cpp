@@ -466,9 +466,11 @@ TEST_P(Worlds, name_their_gl_buffers_or_say_that_there_are_none) {
         return;
     }
     const GlBuffers names = world.gl_buffers();
-    std::set<std::uint32_t> different{names.poses,     names.shapes,         names.aabbs,          names.pairs,
-                                      names.manifolds, names.contact_points, names.point_impulses, names.counters};
-    EXPECT_EQ(different.size(), 8u);
+    std::set<std::uint32_t> different{
+        names.poses,          names.starts,    names.shapes,         names.aabbs,
+        names.pairs,          names.manifolds, names.contact_points, names.point_separations,
+        names.point_impulses, names.counters};
+    EXPECT_EQ(different.size(), 10u);
     EXPECT_FALSE(different.contains(0));
     EXPECT_EQ(names.body_capacity, 2u);
     world.make_gl_current();
