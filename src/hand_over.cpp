@@ -39,6 +39,7 @@ void hand_over_manifolds(Device& from, Device& to) {
     from.read(control);
     const uint pair_count = counter(to, k_counter_pair_count);
     const std::array manifolds{take(to, BufferId::Manifolds, pair_count), take(to, BufferId::PointImpulses, pair_count),
+                               take(to, BufferId::PointSeparations, pair_count),
                                take(to, BufferId::ManifoldPoints, std::size_t{4} * pair_count)};
     from.read(manifolds);
 }
@@ -48,6 +49,7 @@ void hand_over_impulses(Device& from, Device& to) {
     const uint pair_count = counter(from, k_counter_old_pair_count);
     lend(from, to, BufferId::OldManifolds, pair_count);
     lend(from, to, BufferId::OldPointImpulses, pair_count);
+    lend(from, to, BufferId::OldPointSeparations, pair_count);
     lend(from, to, BufferId::OldManifoldPoints, std::size_t{4} * pair_count);
 }
 

@@ -10,13 +10,14 @@
 
 namespace talus::engine {
 
-static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 13,
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 14,
               "another buffer survives the step: snapshots have to hold it too");
 
 std::size_t SavedState::bytes() const {
     std::size_t sum = sizeof *this + manifolds.size() * sizeof(Manifold) + points.size() * sizeof(ManifoldPoint) +
-                      next_impulses.size() * sizeof(NormalImpulses) + impulses.size() * sizeof(float) +
-                      contact_states.size() * sizeof(uint) + rests.size() * sizeof(BodyRest) +
+                      separations.size() * sizeof(Separations) + next_impulses.size() * sizeof(NormalImpulses) +
+                      impulses.size() * sizeof(float) + contact_states.size() * sizeof(uint) +
+                      starts.size() * sizeof(BodyStart) + rests.size() * sizeof(BodyRest) +
                       boxes.size() * sizeof(OrientedBox);
     BodyTable::visit_lists(table, [&](const auto& list) { sum += list.size() * sizeof list[0]; });
     return sum;
@@ -24,7 +25,7 @@ std::size_t SavedState::bytes() const {
 
 SavedState save_state(Simulation& simulation, const BodyTable& table, const Settings& settings) {
     ContactRecords contacts = read_contacts(simulation);
-    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}, {}, {}, {}};
+    SavedState saved{settings, simulation.report(), table, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
     if (simulation.watches_contacts()) {
         saved.contact_states.resize(contacts.manifolds.size());
         simulation.state_device().read(std::array{ReadRequest{
@@ -48,13 +49,17 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
     saved.counters[k_counter_body_count] = std::min(saved.counters[k_counter_body_count], table.slot_count());
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
         const std::size_t first = 4 * i, end = first + contacts.manifolds[i].point_count;
+        if (end == first) contacts.separations[i] = {}; // it is of an earlier step
         for (std::size_t k = first; k < end; ++k) {
             saved.points.push_back(contacts.points[k]);
             saved.impulses.push_back(contacts.impulses[k]);
         }
     }
     saved.manifolds = std::move(contacts.manifolds);
+    saved.separations = std::move(contacts.separations);
     saved.next_impulses = std::move(contacts.next_impulses);
+    saved.starts = std::move(contacts.starts);
+    saved.starts.resize(table.slot_count());
     return saved;
 }
 
@@ -90,9 +95,11 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::Pairs, pairs);
     write_all(BufferId::OldManifolds, saved.manifolds);
     write_all(BufferId::OldManifoldPoints, points);
+    write_all(BufferId::OldPointSeparations, saved.separations);
     write_all(BufferId::OldPointImpulses, saved.next_impulses);
     write_all(BufferId::Constraints, constraints);
     write_all(BufferId::Counters, saved.counters);
+    write_all(BufferId::Starts, saved.starts);
     write_all(BufferId::Rests, saved.rests);
     write_all(BufferId::OrientedBoxes, saved.boxes);
     std::vector<Aabb> aabbs;

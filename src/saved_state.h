@@ -20,9 +20,11 @@ struct SavedState {
     std::array<uint, k_counter_words> counters{};
     std::vector<Manifold> manifolds;           ///< one a pair
     std::vector<ManifoldPoint> points;         ///< of the manifolds in turn, as many as each has
+    std::vector<Separations> separations;      ///< one a manifold
     std::vector<NormalImpulses> next_impulses; ///< one a manifold: what the next step starts from
     std::vector<float> impulses;               ///< N·s along the normal, one a point: of the whole step, hits included
     std::vector<uint> contact_states;          ///< k_contact_*, one a pair; empty where no contacts were watched
+    std::vector<BodyStart> starts;             ///< one a body slot
     std::vector<BodyRest> rests;               ///< one a body slot; empty where nothing may sleep
     std::vector<OrientedBox> boxes;            ///< one a body slot of the last search for pairs
 

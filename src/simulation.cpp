@@ -47,11 +47,20 @@ constexpr std::array k_body_buffers{
     BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,      BufferId::Hubs,
     BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,  BufferId::IslandFill,
     BufferId::IslandBodies, BufferId::IslandPlaces, BufferId::OrientedBoxes, BufferId::LaunchedBodies,
+    BufferId::Starts,
 };
 
 constexpr std::array k_pair_buffers{
-    BufferId::Pairs,         BufferId::OldManifolds, BufferId::OldPointImpulses, BufferId::Manifolds,
-    BufferId::PointImpulses, BufferId::Uncoloured,   BufferId::ManifoldKeys,     BufferId::ManifoldOrder,
+    BufferId::Pairs,
+    BufferId::OldManifolds,
+    BufferId::OldPointImpulses,
+    BufferId::Manifolds,
+    BufferId::PointImpulses,
+    BufferId::Uncoloured,
+    BufferId::ManifoldKeys,
+    BufferId::ManifoldOrder,
+    BufferId::PointSeparations,
+    BufferId::OldPointSeparations,
 };
 
 constexpr std::array k_point_buffers{

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 12;
+constexpr std::uint32_t k_version = 13;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
@@ -120,9 +120,11 @@ template <typename File, typename State> void visit(File& file, State& state) {
     BodyTable::visit_lists(state.table, [&](auto& list) { file.list(list); });
     file.list(state.manifolds);
     file.list(state.points);
+    file.list(state.separations);
     file.list(state.next_impulses);
     file.list(state.impulses);
     file.list(state.contact_states);
+    file.list(state.starts);
     file.list(state.rests);
     file.list(state.boxes);
 }
@@ -156,16 +158,16 @@ void check(SavedState& state) {
     const auto& counters = state.counters;
     if (state.points.size() != point_count || state.impulses.size() != point_count)
         throw Error("it has not as many points as its manifolds say");
-    if (state.next_impulses.size() != state.manifolds.size())
-        throw Error("it has not as many records of impulses as manifolds");
+    if (state.separations.size() != state.manifolds.size() || state.next_impulses.size() != state.manifolds.size())
+        throw Error("it has not as many records of separations or impulses as manifolds");
     if (report.pairs != state.manifolds.size() || report.manifolds != touching || report.contacts != solved_count ||
         (!state.contact_states.empty() && state.contact_states.size() != report.pairs) ||
-        (!state.rests.empty() && state.rests.size() != slots) || counters[k_counter_did_not_fit] != 0 ||
-        counters[k_counter_body_count] > slots || counters[k_counter_old_pair_count] != report.pairs ||
-        counters[k_counter_pair_demand] != report.pairs || counters[k_counter_search_count] != 0 ||
-        counters[k_counter_stray_count] != 0 || counters[k_counter_added_pairs] > report.pairs ||
-        counters[k_counter_pairs_changed] != 0 || counters[k_counter_searched_slots] != state.boxes.size() ||
-        state.boxes.size() > slots)
+        state.starts.size() != slots || (!state.rests.empty() && state.rests.size() != slots) ||
+        counters[k_counter_did_not_fit] != 0 || counters[k_counter_body_count] > slots ||
+        counters[k_counter_old_pair_count] != report.pairs || counters[k_counter_pair_demand] != report.pairs ||
+        counters[k_counter_search_count] != 0 || counters[k_counter_stray_count] != 0 ||
+        counters[k_counter_added_pairs] > report.pairs || counters[k_counter_pairs_changed] != 0 ||
+        counters[k_counter_searched_slots] != state.boxes.size() || state.boxes.size() > slots)
         throw Error("its counts do not go together");
 }
 

@@ -416,9 +416,11 @@ std::vector<Contact> World::contacts() const {
                         manifold.colour == k_inactive_colour,
                         {},
                         manifold.colour < k_no_colour ? manifold.colour & ~k_whole_hub : manifold.colour};
-        for (std::size_t k = 4 * i; k < 4 * i + manifold.point_count; ++k)
-            contact.points.push_back(
-                {from_glm(records.points[k].position), records.points[k].separation, records.impulses[k]});
+        const vec3 centre_a = records.starts[manifold.body_a].position;
+        for (std::size_t k = 0; k < manifold.point_count; ++k)
+            contact.points.push_back({from_glm(point_position(centre_a, records.points[4 * i + k].anchor)),
+                                      records.separations[i].separation[static_cast<int>(k)],
+                                      records.impulses[4 * i + k]});
         result.push_back(std::move(contact));
     }
     std::ranges::sort(result, {}, [](const Contact& c) { return std::pair(c.a.index, c.b.index); });
@@ -530,17 +532,20 @@ GlBuffers World::gl_buffers() const {
     const CallersContext callers(impl_->own_context);
     const BodyChanges changes = impl_->take_changes();
     impl_->simulation.change_bodies(impl_->table.population(), changes);
-    if (impl_->simulation.state_device().gl_name(BufferId::Poses) == 0) { // hybrid: the newest poses are the CPU's
+    if (Device& cpu = impl_->simulation.state_device(); &cpu != &device) { // hybrid: the newest poses are the CPU's
         impl_->refresh();
         device.write(BufferId::Poses, 0, std::as_bytes(std::span(impl_->table.poses)));
+        device.write(BufferId::Starts, 0, {cpu.host_data(BufferId::Starts), cpu.size(BufferId::Starts)});
     }
     GlBuffers names;
     names.poses = device.gl_name(BufferId::Poses);
+    names.starts = device.gl_name(BufferId::Starts);
     names.shapes = device.gl_name(BufferId::Shapes);
     names.aabbs = device.gl_name(BufferId::Aabbs);
     names.pairs = device.gl_name(BufferId::Pairs);
     names.manifolds = device.gl_name(BufferId::OldManifolds);
     names.contact_points = device.gl_name(BufferId::OldManifoldPoints);
+    names.point_separations = device.gl_name(BufferId::OldPointSeparations);
     names.point_impulses = device.gl_name(BufferId::OldPointImpulses);
     names.counters = device.gl_name(BufferId::Counters);
     names.body_capacity = impl_->table.slot_count();

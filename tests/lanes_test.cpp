@@ -329,15 +329,17 @@ ContactConstraint prepared(const CpuState& state, const ContactToPrepare& contac
     ContactConstraint c = begin_constraint(manifold, contact.manifold, contact.colour, contact.order, contact.hub_share,
                                            inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, state.parameters);
     const ManifoldPoint* const points = &state.manifold_points[std::size_t{4} * contact.manifold];
+    const vec3 &position_a = state.poses[manifold.body_a].position, &position_b = state.poses[manifold.body_b].position;
+    const Separations& separations = state.point_separations[contact.manifold];
     for (uint i = 0; i < manifold.point_count; ++i)
-        c = add_to_centre(c, points[i]);
-    c = end_centre(c, state.poses[manifold.body_a].position, state.poses[manifold.body_b].position);
+        c = add_to_centre(c, points[i].anchor, offset_at_meeting(position_a, position_b, separations.shift));
+    c = end_centre(c, position_a, position_b);
     const vec4& impulses = state.point_impulses[contact.manifold].normal;
     const Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     for (uint i = 0; i < manifold.point_count; ++i)
-        c = add_point(c, static_cast<int>(i), points[i], impulses[static_cast<int>(i)], meeting,
-                      respond_to_normals(meeting));
+        c = add_point(c, static_cast<int>(i), points[i].anchor, separations.separation[static_cast<int>(i)],
+                      impulses[static_cast<int>(i)], meeting, respond_to_normals(meeting));
     const float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
     c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts),
                                           c.traits, state.parameters);
@@ -350,6 +352,7 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
     items.inertias[Items::k_hub].traits |= k_trait_hub;
     std::vector<Manifold> manifolds;
     std::vector<ManifoldPoint> points;
+    std::vector<Separations> separations;
     std::vector<NormalImpulses> impulses;
     std::vector<ContactToPrepare> contacts;
     for (uint i = 0; i < Items::k_count; ++i) {
@@ -360,8 +363,8 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
                              friction.z, 1.0f + items.number(0.9f), 1.0f + items.number(0.9f),
                              make_demand(8, 0, 1 + i % 5)});
         for (uint k = 0; k < 4; ++k) // those that are not there may be anything
-            points.push_back({items.vector(0.5f), k < point_count ? items.number(0.02f) : NAN, items.vector(0.5f), k,
-                              items.vector(5.0f), 0.0f});
+            points.push_back({k < point_count ? items.vector(0.5f) : vec3(NAN), k});
+        separations.push_back({items.vector4(0.02f), items.vector(0.1f), 0.0f});
         impulses.push_back({items.vector4(1.0f) + 1.0f});
         const bool of_hub = c.body_a == Items::k_hub || c.body_b == Items::k_hub;
         const uint order = i % 3 << k_earlier_of_a | i % 5 << k_earlier_of_b | i % 2 << k_last_of_b;
@@ -376,6 +379,7 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
         CpuState state = items.state();
         state.manifolds = {manifolds.data(), manifolds.size()};
         state.manifold_points = {points.data(), points.size()};
+        state.point_separations = {separations.data(), separations.size()};
         state.point_impulses = {impulses.data(), impulses.size()};
         state.constraints = {made.data(), made.size()};
         state.told_loads = {told.data(), told.size()};

@@ -120,6 +120,40 @@ TEST_P(Sleep, a_stack_falls_asleep_as_a_whole_and_stays_where_it_is) {
     }
 }
 
+TEST_P(Sleep, keeps_contacts_bit_by_bit_while_other_pairs_come_and_go) {
+    World world = make_world(with_sleeping());
+    world.add(ground());
+    const std::vector<BodyId> other = add_stack(world, 10.0f), stack = add_stack(world, 0.0f);
+    step_until_asleep(world, 6);
+    const auto contacts_of_stack = [&] {
+        std::vector<Contact> contacts = world.contacts();
+        std::erase_if(contacts,
+                      [&](const Contact& contact) { return std::ranges::find(stack, contact.b) == stack.end(); });
+        return contacts;
+    };
+    const std::vector<Contact> before = contacts_of_stack();
+    ASSERT_EQ(before.size(), 3u);
+    for (const BodyId id : other)
+        world.remove(id);
+    for (int i = 0; i < 5; ++i) // into the places that become free
+        world.add(sphere_at({10.0f, 0.7f + 1.5f * static_cast<float>(i), 0.0f}));
+    for (int i = 0; i < 20; ++i) {
+        world.step();
+        ASSERT_TRUE(all_asleep(world, stack));
+        const std::vector<Contact> now = contacts_of_stack();
+        ASSERT_EQ(now.size(), before.size());
+        for (std::size_t c = 0; c < now.size(); ++c) {
+            EXPECT_EQ(now[c].normal, before[c].normal);
+            ASSERT_EQ(now[c].points.size(), before[c].points.size());
+            for (std::size_t k = 0; k < now[c].points.size(); ++k) {
+                EXPECT_EQ(now[c].points[k].position, before[c].points[k].position);
+                EXPECT_EQ(now[c].points[k].separation, before[c].points[k].separation);
+                EXPECT_EQ(now[c].points[k].normal_impulse, before[c].points[k].normal_impulse);
+            }
+        }
+    }
+}
+
 TEST_P(Sleep, a_ball_wakes_the_stack_in_the_step_of_touch_and_no_other) {
     Sleepers made = make_sleepers();
     World& world = made.world;

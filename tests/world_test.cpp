@@ -285,28 +285,46 @@ TEST_P(Worlds, contacts_describe_a_resting_box) {
     EXPECT_EQ(report.step, 60u);
 }
 
+/// The one contact of a world is that of a box of 1 m, which stood on the ground there.
+void expect_contact_under(const World& world, Vec3 place) {
+    const std::vector<Contact> contacts = world.contacts();
+    ASSERT_EQ(contacts.size(), 1u);
+    ASSERT_EQ(contacts[0].points.size(), 4u);
+    for (const ContactPoint& point : contacts[0].points) {
+        EXPECT_NEAR(std::abs(point.position.x - place.x), 0.5f, 1e-3f);
+        EXPECT_NEAR(point.position.y, 0.0f, 2e-3f);
+        EXPECT_NEAR(std::abs(point.position.z - place.z), 0.5f, 1e-3f);
+    }
+}
+
 TEST_P(Worlds, contacts_lie_where_the_step_found_them) {
-    World world = make_world();
-    world.add(with_material(ground(), 0.0f));
-    const BodyId box = world.add(with_material(box_at({0.0f, 0.5f, 0.0f}), 0.0f));
-    world.step(30);
-    world.set_velocity(box, {{30.0f, 0.0f, 0.0f}, {}}); // half a metre a step
-    const Vec3 before = world.pose(box).position;
-    world.step();
-    ASSERT_NEAR(world.pose(box).position.x, before.x + 0.5f, 1e-3f);
-    const auto expect_around_it = [&] {
-        const std::vector<Contact> contacts = world.contacts();
-        ASSERT_EQ(contacts.size(), 1u);
-        ASSERT_EQ(contacts[0].points.size(), 4u);
-        for (const ContactPoint& point : contacts[0].points) {
-            EXPECT_NEAR(std::abs(point.position.x - before.x), 0.5f, 1e-3f);
-            EXPECT_NEAR(point.position.y, 0.0f, 2e-3f);
-            EXPECT_NEAR(std::abs(point.position.z - before.z), 0.5f, 1e-3f);
+    for (const int box_place : {0, 1}) { // it is A, or B
+        World world = make_world();
+        BodyId box;
+        for (const int place : {0, 1}) {
+            if (place == box_place)
+                box = world.add(with_material(box_at({0.0f, 0.5f, 0.0f}), 0.0f));
+            else
+                world.add(with_material(ground(), 0.0f));
         }
-    };
-    expect_around_it();
-    world.set_pose(box, {{0.0f, 20.0f, 0.0f}, {}});
-    expect_around_it();
+        world.step(30);
+        world.set_velocity(box, {{30.0f, 0.0f, 0.0f}, {}}); // half a metre a step
+        const Vec3 before = world.pose(box).position;
+        world.step();
+        ASSERT_NEAR(world.pose(box).position.x, before.x + 0.5f, 1e-3f);
+        expect_contact_under(world, before);
+        world.set_pose(box, {{0.0f, 20.0f, 0.0f}, {}});
+        expect_contact_under(world, before);
+        world.add(std::vector<BodyDefinition>(200, box_at({0.0f, 50.0f, 0.0f}))); // buffers grow
+        expect_contact_under(world, before);
+        World other = make_world();
+        other.restore(world.snapshot());
+        expect_contact_under(other, before);
+        world.remove(box);
+        EXPECT_TRUE(world.contacts().empty());
+        world.restore(other.snapshot());
+        expect_contact_under(world, before);
+    }
 }
 
 TEST_P(Worlds, contact_impulses_carry_the_stack_above) {
@@ -466,9 +484,11 @@ TEST_P(Worlds, name_their_gl_buffers_or_say_that_there_are_none) {
         return;
     }
     const GlBuffers names = world.gl_buffers();
-    std::set<std::uint32_t> different{names.poses,     names.shapes,         names.aabbs,          names.pairs,
-                                      names.manifolds, names.contact_points, names.point_impulses, names.counters};
-    EXPECT_EQ(different.size(), 8u);
+    std::set<std::uint32_t> different{
+        names.poses,          names.starts,    names.shapes,         names.aabbs,
+        names.pairs,          names.manifolds, names.contact_points, names.point_separations,
+        names.point_impulses, names.counters};
+    EXPECT_EQ(different.size(), 10u);
     EXPECT_FALSE(different.contains(0));
     EXPECT_EQ(names.body_capacity, 2u);
     world.make_gl_current();

@@ -64,6 +64,8 @@ struct GlBuffers {
     /// 32 bytes a body: vec3 position (m), uint flags, of which bit 2 is set while the body sleeps, vec4 rotation (x,
     /// y, z, w).
     std::uint32_t poses = 0;
+    /// 16 bytes a body: vec3 position (m), float; where the body was at the start of the last step.
+    std::uint32_t starts = 0;
     /// 16 bytes a body: vec3 half extents (m), uint word with the shape in bits 0–7 (0 box, 1 sphere), the body's kind
     /// in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here), and bit 16 set for a sensor.
     std::uint32_t shapes = 0;
@@ -71,12 +73,15 @@ struct GlBuffers {
     std::uint32_t aabbs = 0;
     /// 8 bytes a pair: uint body a, uint body b; their number is the word `pair_count_word` of `counters`.
     std::uint32_t pairs = 0;
-    std::uint32_t manifolds = 0;      ///< 64 bytes a pair, see Manifold in src/state/records.shared.glsl
-    std::uint32_t contact_points = 0; ///< four of 48 bytes a pair, see ManifoldPoint in the same file
-    std::uint32_t point_impulses = 0; ///< 16 bytes a pair, see NormalImpulses in the same file
-    std::uint32_t counters = 0;       ///< words, see k_counter_* in src/state/constants.shared.glsl
-    std::uint32_t body_capacity = 0;  ///< instances to draw; unused ones have the kind 255
-    std::uint32_t pair_capacity = 0;  ///< pairs of the last step
+    std::uint32_t manifolds = 0; ///< 64 bytes a pair, see Manifold in src/state/records.shared.glsl
+    /// Four of 16 bytes a pair, see ManifoldPoint in the same file: an anchor leads from body a's place in `starts` to
+    /// the point.
+    std::uint32_t contact_points = 0;
+    std::uint32_t point_separations = 0;                ///< 32 bytes a pair, see Separations in the same file
+    std::uint32_t point_impulses = 0;                   ///< 16 bytes a pair, see NormalImpulses in the same file
+    std::uint32_t counters = 0;                         ///< words, see k_counter_* in src/state/constants.shared.glsl
+    std::uint32_t body_capacity = 0;                    ///< instances to draw; unused ones have the kind 255
+    std::uint32_t pair_capacity = 0;                    ///< pairs of the last step
     static constexpr std::uint32_t pair_count_word = 2; ///< of `counters`
 };
 

@@ -33,14 +33,21 @@ inline ContactReport make_report(Manifold manifold, uint phase)
     return report;
 }
 
+// Where a point was when it was found (m, world), `centre_a` being A's centre at the start of that step.
+inline vec3 point_position(vec3 centre_a, vec3 anchor)
+{
+    precise vec3 position = centre_a + anchor;
+    return position;
+}
+
 // Point i, after those before it.
-inline ContactReport add_point(ContactReport report, int i, ManifoldPoint point, float normal_impulse)
+inline ContactReport add_point(ContactReport report, int i, vec3 position, float separation, float normal_impulse)
 {
     ContactReport longer = report;
-    longer.x[i] = point.position.x;
-    longer.y[i] = point.position.y;
-    longer.z[i] = point.position.z;
-    longer.separation[i] = point.separation;
+    longer.x[i] = position.x;
+    longer.y[i] = position.y;
+    longer.z[i] = position.z;
+    longer.separation[i] = separation;
     longer.normal_impulse[i] = normal_impulse;
     longer.point_count = report.point_count + 1u;
     return longer;

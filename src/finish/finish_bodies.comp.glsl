@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its new pose, for how long it has rested, and no load for the next step. A body that would
-// become non-finite stays where it was and is frozen; one that sleeps is left alone. The first one also makes this step's
-// pairs the last step's.
+// become non-finite stays where it was and is frozen; one that sleeps is left alone. Where each was is kept for whoever asks
+// for the step's contacts. The first invocation also makes this step's pairs the last step's.
 // Reads: Shapes, Deltas, Counters.
-// Writes: Poses, Loads, Rests, Counters; Velocities where a body is frozen or too fast.
+// Writes: Starts; Poses, Loads, Rests, Counters; Velocities where a body is frozen or too fast.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit, and does nothing after one that went wrong.
 #include "state/math.shared.glsl"
@@ -16,6 +16,7 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) buffer Rests { BodyRestCells rests[]; };
+layout(std430) writeonly buffer Starts { BodyStartCells starts[]; };
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 layout(std430) buffer Loads { BodyLoadCells loads[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
@@ -31,6 +32,7 @@ void main()
     }
     if (body >= parameters.body_count) return;
     BodyPose pose = unpack(poses[body]);
+    starts[body] = pack(start_at(pose));
     if (is_asleep(pose)) return;
     bool moves = is_mover(unpack(shapes[body]));
     bool disturbed = (pose.flags & k_body_disturbed) != 0u;

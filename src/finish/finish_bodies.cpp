@@ -14,6 +14,7 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
     state.counters[k_counter_pairs_changed] = 0;
     state.parallel(p.body_count, [&](uint body) {
         BodyPose& pose = state.poses[body];
+        state.starts[body] = start_at(pose);
         if (is_asleep(pose)) return;
         const bool moves = is_mover(state.shapes[body]);
         if (moves || (pose.flags & k_body_disturbed) != 0) state.loads[body] = no_load();

@@ -2,7 +2,8 @@
 // One invocation is a pair: whether its bodies touch, and a report where that is new. Launched only where contacts are
 // watched. What touched as it fell asleep goes on touching, with the impulses of then.
 // args.x: 1 where contacts that persist are reported too; args.y: reports that leave with the step.
-// Reads: PairTable, Poses, OldManifolds, Manifolds, ManifoldPoints, PointImpulses, ContactImpulses.
+// Reads: PairTable, Poses as they were at the start of the step, OldManifolds, Manifolds, ManifoldPoints, PointSeparations,
+// PointImpulses, ContactImpulses.
 // Writes: ContactStates; OldContactStates, 0 where the contact goes on; ContactReports, in an order that depends on who
 // comes first; Counters.
 // Needs: barriers after gather_contact_impulses and fill_pair_table.
@@ -22,6 +23,7 @@ layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer OldManifolds { ManifoldCells old_manifolds[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
+layout(std430) readonly buffer PointSeparations { SeparationsCells point_separations[]; };
 layout(std430) readonly buffer PointImpulses { NormalImpulsesCells point_impulses[]; };
 layout(std430) readonly buffer ContactImpulses { ContactImpulseCells contact_impulses[]; };
 layout(std430) writeonly buffer ContactStates { uint contact_states[]; };
@@ -48,13 +50,15 @@ void main()
         impulse = unpack(point_impulses[pair]).normal;
     else if (is_active(manifold))
         impulse = unpack(contact_impulses[pair]).normal_impulse;
+    vec3 centre_a = unpack(poses[manifold.body_a]).position;
+    vec4 separation = unpack(point_separations[pair]).separation;
     ContactReport report = make_report(manifold, touched ? k_phase_persist : k_phase_begin);
     bool touches = asleep && touched;
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
-        ManifoldPoint point = unpack(manifold_points[4u * pair + i]);
-        touches = touches || touches_at(point.separation, impulse[i], touched);
-        report = add_point(report, int(i), point, impulse[i]);
+        vec3 position = point_position(centre_a, unpack(manifold_points[4u * pair + i]).anchor);
+        touches = touches || touches_at(separation[i], impulse[i], touched);
+        report = add_point(report, int(i), position, separation[i], impulse[i]);
     }
     if (!touches) return;
     contact_states[pair] = k_contact_touches;

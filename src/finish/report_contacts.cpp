@@ -22,13 +22,15 @@ static void report_contacts_on_cpu(CpuState& state, const Launch& launch) {
             impulse = state.point_impulses[pair].normal;
         else if (is_active(manifold))
             impulse = state.contact_impulses[pair].normal_impulse;
+        const vec3 centre_a = state.poses[manifold.body_a].position;
         ContactReport report = make_report(manifold, touched ? k_phase_persist : k_phase_begin);
         bool touches = asleep && touched;
         for (uint i = 0; i < manifold.point_count; ++i) {
-            const ManifoldPoint& point = state.manifold_points[std::size_t{4} * pair + i];
+            const vec3 position = point_position(centre_a, state.manifold_points[std::size_t{4} * pair + i].anchor);
+            const float separation = state.point_separations[pair].separation[static_cast<int>(i)];
             const float along_normal = impulse[static_cast<int>(i)];
-            touches = touches || touches_at(point.separation, along_normal, touched);
-            report = add_point(report, static_cast<int>(i), point, along_normal);
+            touches = touches || touches_at(separation, along_normal, touched);
+            report = add_point(report, static_cast<int>(i), position, separation, along_normal);
         }
         if (!touches) continue;
         state.contact_states[pair] = k_contact_touches;

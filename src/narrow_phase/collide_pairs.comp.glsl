@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3). Of a pair in
 // which a body sleeps and nothing moves it is the last step's.
-// Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds,
-// OldManifoldPoints, OldPointImpulses.
-// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; ManifoldPoints, PointImpulses; Counters, where
-// two bodies touch that did not in the last step, or touch no longer, by which the constraint graph is another one, and where
-// they touch at fewer or more points.
+// Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds, OldManifoldPoints,
+// OldPointImpulses; of a pair that sleeps OldPointSeparations.
+// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; PointImpulses; where they touch ManifoldPoints
+// and PointSeparations; Counters, where two bodies touch that did not in the last step, or touch no longer, by which the
+// constraint graph is another one, and where they touch at fewer or more points.
 // Needs: barriers after plan_pairs and fill_pair_table.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -35,9 +35,11 @@ layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer PairTable { uint pair_table[]; };
 layout(std430) readonly buffer OldManifolds { ManifoldCells old_manifolds[]; };
 layout(std430) readonly buffer OldManifoldPoints { ManifoldPointCells old_manifold_points[]; };
+layout(std430) readonly buffer OldPointSeparations { SeparationsCells old_point_separations[]; };
 layout(std430) readonly buffer OldPointImpulses { NormalImpulsesCells old_point_impulses[]; };
 layout(std430) writeonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
+layout(std430) writeonly buffer PointSeparations { SeparationsCells point_separations[]; };
 layout(std430) writeonly buffer PointImpulses { NormalImpulsesCells point_impulses[]; };
 
 #include "broad_phase/box_now.glsl"
@@ -51,8 +53,8 @@ Carriers read_carriers(uint old_index)
     Carriers carriers;
     carriers.axis = old.axis;
     for (uint i = 0u; i < 4u; ++i) {
-        ManifoldPoint point = unpack(old_manifold_points[4u * old_index + i]);
-        carriers.features[i] = i < old.point_count && impulses[i] > 0.0 ? point.feature_id : k_none;
+        uint feature = unpack(old_manifold_points[4u * old_index + i]).feature_id;
+        carriers.features[i] = i < old.point_count && impulses[i] > 0.0 ? feature : k_none;
     }
     return carriers;
 }
@@ -66,7 +68,7 @@ OldPoints read_old_points(uint old_index)
     vec4 impulses = unpack(old_point_impulses[old_index]).normal;
     for (uint i = 0u; i < 4u; ++i) {
         ManifoldPoint point = unpack(old_manifold_points[4u * old_index + i]);
-        points.anchors[i] = point.anchor_a;
+        points.anchors[i] = point.anchor;
         points.features[i] = point.feature_id;
         points.impulses[i] = impulses[i];
     }
@@ -102,6 +104,7 @@ void keep_manifold(uint pair_index, Pair pair, uint old_index)
         return;
     }
     manifolds[pair_index] = old_manifolds[old_index];
+    point_separations[pair_index] = old_point_separations[old_index];
     point_impulses[pair_index] = old_point_impulses[old_index];
     uint count = unpack(old_manifolds[old_index]).point_count;
     for (uint i = 0u; i < 4u; ++i) {
@@ -156,7 +159,6 @@ void main()
     BodyPose pose_b = unpack(poses[pair.body_b]);
     BodyShape shape_a = unpack(shapes[pair.body_a]);
     BodyShape shape_b = unpack(shapes[pair.body_b]);
-    precise vec3 offset = pose_b.position - pose_a.position;
     precise vec3 motion =
         (unpack(velocities[pair.body_b]).linear - unpack(velocities[pair.body_a]).linear) * parameters.dt;
     precise float max_separation = parameters.speculative_distance + length3(motion);
@@ -181,8 +183,9 @@ void main()
     manifolds[pair_index] = pack(manifold);
     put_impulses(pair_index, impulses);
     compare_with_last(pair_index, manifold);
+    if (g.count == 0u) return;
+    point_separations[pair_index] = pack(make_separations(g));
     for (uint i = 0u; i < 4u; ++i) {
-        if (i < g.count)
-            manifold_points[4u * pair_index + i] = pack(make_point(g, pose_a.position, offset, i));
+        if (i < g.count) manifold_points[4u * pair_index + i] = pack(make_point(g, i));
     }
 }

@@ -33,7 +33,7 @@ OldPoints read_old_points(const CpuState& state, uint old_index) {
     old.axis = manifold.axis;
     old.count = manifold.point_count;
     for (uint i = 0; i < old.count; ++i) {
-        old.anchors[i] = points[i].anchor_a;
+        old.anchors[i] = points[i].anchor;
         old.features[i] = points[i].feature_id;
         old.impulses[i] = state.old_point_impulses[old_index].normal[static_cast<int>(i)];
     }
@@ -59,6 +59,7 @@ void keep_manifold(CpuState& state, uint pair_index, uint old_index) {
         return;
     }
     state.manifolds[pair_index] = state.old_manifolds[old_index];
+    state.point_separations[pair_index] = state.old_point_separations[old_index];
     state.point_impulses[pair_index] = state.old_point_impulses[old_index];
     std::copy_n(&state.old_manifold_points[std::size_t{4} * old_index], state.old_manifolds[old_index].point_count,
                 &state.manifold_points[std::size_t{4} * pair_index]);
@@ -101,7 +102,6 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
     const Pair pair = state.pairs[in_hand.index];
     const BodyPose& pose_a = state.poses[pair.body_a];
     const BodyPose& pose_b = state.poses[pair.body_b];
-    const vec3 offset = pose_b.position - pose_a.position;
     const vec3 motion =
         (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
     const float max_separation = state.parameters.speculative_distance + length3(motion);
@@ -124,8 +124,10 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
     }
     state.manifolds[in_hand.index] = manifold;
     state.point_impulses[in_hand.index] = {impulses};
+    if (g.count == 0) return;
+    state.point_separations[in_hand.index] = make_separations(g);
     for (uint i = 0; i < g.count; ++i)
-        state.manifold_points[std::size_t{4} * in_hand.index + i] = make_point(g, pose_a.position, offset, i);
+        state.manifold_points[std::size_t{4} * in_hand.index + i] = make_point(g, i);
 }
 
 constexpr uint k_part = 32; // pairs that a thread treats together

@@ -149,19 +149,26 @@ inline vec4 carry_impulses(ContactGeometry g, OldPoints old)
                 impulse_of(old, match.old_index[2]), impulse_of(old, match.old_index[3]));
 }
 
-// Point i of the new manifold; `offset` leads from A's centre to B's at the start of the step.
-inline ManifoldPoint make_point(ContactGeometry g, vec3 centre_a, vec3 offset, uint i)
+// Point i of the new manifold.
+inline ManifoldPoint make_point(ContactGeometry g, uint i)
 {
-    precise vec3 anchor_b = g.points[i] - (offset + g.shift);
-    precise vec3 position = centre_a + g.points[i];
     ManifoldPoint point;
-    point.anchor_a = g.points[i];
-    point.separation = g.separations[i];
-    point.anchor_b = anchor_b;
+    point.anchor = g.points[i];
     point.feature_id = g.features[i];
-    point.position = position;
-    point.reserved = 0.0f;
     return point;
+}
+
+inline float separation_of(ContactGeometry g, uint i) { return i < g.count ? g.separations[i] : 0.0f; }
+
+// Of all points of the new manifold.
+inline Separations make_separations(ContactGeometry g)
+{
+    Separations separations;
+    separations.separation =
+        vec4(separation_of(g, 0u), separation_of(g, 1u), separation_of(g, 2u), separation_of(g, 3u));
+    separations.shift = g.shift;
+    separations.reserved = 0.0f;
+    return separations;
 }
 
 // For bodies that the caller has just put together: the load is not known yet. Without gravity none builds up.

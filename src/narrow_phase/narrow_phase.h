@@ -9,7 +9,7 @@ namespace talus::engine {
 
 struct StepPlan;
 
-/// Fills Manifolds and PointImpulses, one a pair, and ManifoldPoints, four.
+/// Fills Manifolds, PointSeparations and PointImpulses, one a pair, and ManifoldPoints, four.
 void narrow_phase(Device&, const StepPlan&);
 /// Fills PairTable from OldManifolds, which narrow_phase does too.
 void index_old_manifolds(Device&, const StepPlan&);

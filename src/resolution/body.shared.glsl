@@ -285,6 +285,14 @@ inline bool is_finite_motion(BodyPose pose, BodyVelocity velocity)
            is_finite3(velocity.angular);
 }
 
+inline BodyStart start_at(BodyPose pose)
+{
+    BodyStart start;
+    start.position = pose.position;
+    start.reserved = 0.0f;
+    return start;
+}
+
 inline BodyLoad no_load()
 {
     BodyLoad load;

@@ -83,11 +83,20 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     return c;
 }
 
-inline ContactConstraint add_to_centre(ContactConstraint c, ManifoldPoint point)
+// From A's centre to B's where the bodies meet; the positions are those at the start of the step.
+inline vec3 offset_at_meeting(vec3 position_a, vec3 position_b, vec3 shift)
+{
+    precise vec3 offset = (position_b - position_a) + shift;
+    return offset;
+}
+
+// `offset`: at the meeting.
+inline ContactConstraint add_to_centre(ContactConstraint c, vec3 anchor, vec3 offset)
 {
     precise float share = reciprocal(float(point_count_of(c.counts)));
-    c.centre_a = add_scaled(c.centre_a, point.anchor_a, share);
-    c.centre_b = add_scaled(c.centre_b, point.anchor_b, share);
+    precise vec3 anchor_b = anchor - offset;
+    c.centre_a = add_scaled(c.centre_a, anchor, share);
+    c.centre_b = add_scaled(c.centre_b, anchor_b, share);
     return c;
 }
 
@@ -99,12 +108,12 @@ inline ContactConstraint end_centre(ContactConstraint c, vec3 position_a, vec3 p
 }
 
 // Point i of the manifold, which starts from `normal_impulse`. `r`: of the meeting.
-inline ContactConstraint add_point(ContactConstraint c, int i, ManifoldPoint point, float normal_impulse, Meeting m,
+inline ContactConstraint add_point(ContactConstraint c, int i, vec3 anchor, float separation, float normal_impulse, Meeting m,
                                    NormalResponse r)
 {
-    precise vec3 arm = point.anchor_a - c.centre_a;
+    precise vec3 arm = anchor - c.centre_a;
     precise vec3 apart = c.centre_b - c.centre_a;
-    precise float base = point.separation - dot3(apart, c.normal);
+    precise float base = separation - dot3(apart, c.normal);
     precise float impulse = normal_impulse * reciprocal(float(substeps_of_contact(c.counts)));
     float x = dot3(arm, m.frame.x);
     float y = dot3(arm, m.frame.y);

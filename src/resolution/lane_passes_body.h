@@ -162,10 +162,13 @@ TALUS_LANE Manifold manifolds_at(const CpuState& state, const std::uint32_t* pla
             floatBitsToUint(rest.w)};
 }
 
-TALUS_LANE ManifoldPoint points_at(const CpuState& state, const std::uint32_t* places) {
-    const auto a = gather(state.manifold_points.data, places, 0), b = gather(state.manifold_points.data, places, 1),
-               c = gather(state.manifold_points.data, places, 2);
-    return {three_of(a), a.w, three_of(b), floatBitsToUint(b.w), three_of(c), c.w};
+TALUS_LANE vec3 anchors_at(const CpuState& state, const std::uint32_t* places) {
+    return three_of(gather(state.manifold_points.data, places, 0));
+}
+
+TALUS_LANE Separations separations_at(const CpuState& state, const std::uint32_t* places) {
+    const auto shift = gather(state.point_separations.data, places, 1);
+    return {all_of(gather(state.point_separations.data, places, 0)), three_of(shift), shift.w};
 }
 
 // ---- before the passes ----
@@ -215,9 +218,13 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     const auto has_point = [&](std::uint32_t i) __attribute__((always_inline)) {
         return ULanes(i) < point_count_of(c.counts);
     };
+    const vec3 position_a = three_of(gather(state.poses.data, body_a, 0));
+    const vec3 position_b = three_of(gather(state.poses.data, body_b, 0));
+    Separations separations = separations_at(state, manifolds);
+    const vec3 offset = offset_at_meeting(position_a, position_b, separations.shift);
     for (std::uint32_t i = 0; i < 4; ++i)
-        c = choose(has_point(i), add_to_centre(c, points_at(state, points[i])), c);
-    c = end_centre(c, three_of(gather(state.poses.data, body_a, 0)), three_of(gather(state.poses.data, body_b, 0)));
+        c = choose(has_point(i), add_to_centre(c, anchors_at(state, points[i]), offset), c);
+    c = end_centre(c, position_a, position_b);
 
     const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);
     const LoadBelow load = load_below(manifold, standing, inverse_mass_a, inverse_mass_b);
@@ -233,8 +240,9 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     vec4 impulses = all_of(gather(state.point_impulses.data, manifolds, 0));
     for (std::uint32_t i = 0; i < 4; ++i)
         c = choose(has_point(i),
-                   add_point(c, static_cast<int>(i), points_at(state, points[i]), impulses[static_cast<int>(i)],
-                             meeting, response),
+                   add_point(c, static_cast<int>(i), anchors_at(state, points[i]),
+                             separations.separation[static_cast<int>(i)], impulses[static_cast<int>(i)], meeting,
+                             response),
                    c);
     const Lanes force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, state.parameters);
     c.base_separation = lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
 // args.x, args.y: the first pair that is wanted, and how many are.
-// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, PointImpulses, BodyColours, Velocities,
-// Inertias.
+// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, PointSeparations, PointImpulses,
+// BodyColours, Velocities, Inertias.
 // Writes: Constraints, ToldLoads.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
@@ -33,6 +33,7 @@ layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
+layout(std430) readonly buffer PointSeparations { SeparationsCells point_separations[]; };
 
 #include "resolution/hub_load.glsl"
 
@@ -77,11 +78,15 @@ void main()
     ContactConstraint c =
         begin_constraint(manifold, manifold_index, colour, order, share_of_contact(manifold, manifold_index, colour),
                          inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, parameters);
+    vec3 position_a = unpack(poses[manifold.body_a]).position;
+    vec3 position_b = unpack(poses[manifold.body_b]).position;
+    Separations separations = unpack(point_separations[manifold_index]);
+    vec3 offset = offset_at_meeting(position_a, position_b, separations.shift);
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
-        c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]));
+        c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]).anchor, offset);
     }
-    c = end_centre(c, unpack(poses[manifold.body_a]).position, unpack(poses[manifold.body_b]).position);
+    c = end_centre(c, position_a, position_b);
     Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
     tell_load(load_below(manifold, standing, inverse_mass_a, inverse_mass_b), height_of(manifold.demand));
     Meeting meeting = make_meeting(c, inertia_a, inertia_b);
@@ -90,7 +95,8 @@ void main()
     vec4 impulses = unpack(point_impulses[manifold_index]).normal;
     for (uint i = 0u; i < 4u; ++i) {
         if (i >= manifold.point_count) continue;
-        c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]), impulses[i], meeting, response);
+        c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]).anchor, separations.separation[i],
+                      impulses[i], meeting, response);
     }
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
     c.base_separation =

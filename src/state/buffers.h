@@ -26,6 +26,7 @@ namespace talus::engine {
     X(Properties, properties, BodyProperties, "fffffffffuuu", State)                                                   \
     X(Loads, loads, BodyLoad, "fffuffff", State)                                                                       \
     X(Rests, rests, BodyRest, "ffffffff", State)                                                                       \
+    X(Starts, starts, BodyStart, "ffff", Result)                                                                       \
     X(Changes, changes, uint, "u", Scratch)                                                                            \
     /* broad phase */                                                                                                  \
     X(OrientedBoxes, oriented_boxes, OrientedBox, "fffffffffffu", State)                                               \
@@ -50,10 +51,12 @@ namespace talus::engine {
     /* narrow phase */                                                                                                 \
     X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
     X(OldManifolds, old_manifolds, Manifold, "uuuufffufffffffu", State)                                                \
-    X(OldManifoldPoints, old_manifold_points, ManifoldPoint, "fffffffuffff", State)                                    \
+    X(OldManifoldPoints, old_manifold_points, ManifoldPoint, "fffu", State)                                            \
+    X(OldPointSeparations, old_point_separations, Separations, "ffffffff", State)                                      \
     X(OldPointImpulses, old_point_impulses, NormalImpulses, "ffff", State)                                             \
     X(Manifolds, manifolds, Manifold, "uuuufffufffffffu", Result)                                                      \
-    X(ManifoldPoints, manifold_points, ManifoldPoint, "fffffffuffff", Result)                                          \
+    X(ManifoldPoints, manifold_points, ManifoldPoint, "fffu", Result)                                                  \
+    X(PointSeparations, point_separations, Separations, "ffffffff", Result)                                            \
     X(PointImpulses, point_impulses, NormalImpulses, "ffff", Result)                                                   \
     /* resolution */                                                                                                   \
     X(Islands, islands, uint, "u", Result)                                                                             \

@@ -48,6 +48,12 @@ struct BodyLoad {
     float reserved_2;
 };
 
+// 16 bytes. Where the body was at the start of the step: the step's contact points are anchored there.
+struct BodyStart {
+    vec3 position; // m, world
+    float reserved;
+};
+
 // 32 bytes. Where the body was when its rest began. Kept while islands may sleep.
 struct BodyRest {
     vec3 position; // m, world
@@ -129,13 +135,17 @@ struct Manifold {
     uint demand;         // sub-steps that its load asks for, and how it came to that: see resolution/load.shared.glsl
 };
 
-// 48 bytes, four a pair.
+// 16 bytes, four a pair: what the next step matches its points with. B's anchor and the point's place follow from it and
+// from where the bodies were at the start of the step: see offset_at_meeting and point_position.
 struct ManifoldPoint {
-    vec3 anchor_a;    // m, from A's centre, world axes
-    float separation; // m, negative = overlap
-    vec3 anchor_b;    // m, from B's centre, world axes
+    vec3 anchor; // m, from A's centre, world axes
     uint feature_id;
-    vec3 position;        // m, world: where the point was when it was found, before the bodies moved on
+};
+
+// 32 bytes, one a pair: the rest of what is known of its points. The next step reads it only of a pair that sleeps.
+struct Separations {
+    vec4 separation; // m of each point, negative = overlap; 0 where there is none
+    vec3 shift;      // m: B is this far on, as seen from A, where the bodies meet
     float reserved;
 };
 
