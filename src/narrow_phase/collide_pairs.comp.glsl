@@ -45,33 +45,32 @@ layout(std430) writeonly buffer PointImpulses { NormalImpulsesCells point_impuls
 #include "broad_phase/box_now.glsl"
 #include "narrow_phase/find_old_manifold.glsl"
 
-// All four points are loaded, whether they are there or not, so that no load waits for another.
-Carriers read_carriers(uint old_index)
-{
-    Manifold old = unpack(old_manifolds[old_index]);
-    vec4 impulses = unpack(old_point_impulses[old_index]).normal;
-    Carriers carriers;
-    carriers.axis = old.axis;
-    for (uint i = 0u; i < 4u; ++i) {
-        uint feature = unpack(old_manifold_points[4u * old_index + i]).feature_id;
-        carriers.features[i] = i < old.point_count && impulses[i] > 0.0 ? feature : k_none;
-    }
-    return carriers;
-}
+ManifoldPoint old_point(uint old_index, uint i) { return unpack(old_manifold_points[4u * old_index + i]); }
 
+// All four points are loaded, whether they are there or not, so that no load waits for another.
 OldPoints read_old_points(uint old_index)
 {
     Manifold old = unpack(old_manifolds[old_index]);
+    vec4 impulses = unpack(old_point_impulses[old_index]).normal;
+    ManifoldPoint point_0 = old_point(old_index, 0u);
+    ManifoldPoint point_1 = old_point(old_index, 1u);
+    ManifoldPoint point_2 = old_point(old_index, 2u);
+    ManifoldPoint point_3 = old_point(old_index, 3u);
     OldPoints points;
     points.axis = old.axis;
     points.count = old.point_count;
-    vec4 impulses = unpack(old_point_impulses[old_index]).normal;
-    for (uint i = 0u; i < 4u; ++i) {
-        ManifoldPoint point = unpack(old_manifold_points[4u * old_index + i]);
-        points.anchors[i] = point.anchor;
-        points.features[i] = point.feature_id;
-        points.impulses[i] = impulses[i];
-    }
+    points.anchors[0] = point_0.anchor;
+    points.anchors[1] = point_1.anchor;
+    points.anchors[2] = point_2.anchor;
+    points.anchors[3] = point_3.anchor;
+    points.features[0] = point_0.feature_id;
+    points.features[1] = point_1.feature_id;
+    points.features[2] = point_2.feature_id;
+    points.features[3] = point_3.feature_id;
+    points.impulses[0] = impulses.x;
+    points.impulses[1] = impulses.y;
+    points.impulses[2] = impulses.z;
+    points.impulses[3] = impulses.w;
     return points;
 }
 
@@ -89,6 +88,11 @@ void put_impulses(uint pair_index, vec4 normal)
     NormalImpulses impulses;
     impulses.normal = normal;
     point_impulses[pair_index] = pack(impulses);
+}
+
+void put_point(uint pair_index, uint i, uint count, vec3 anchor, uint feature)
+{
+    if (i < count) manifold_points[4u * pair_index + i] = pack(make_point(anchor, feature));
 }
 
 void put_none(uint pair_index, Pair pair)
@@ -153,7 +157,7 @@ void main()
         return;
     }
     Carriers carriers = no_carriers();
-    if (old_index != k_none) carriers = read_carriers(old_index);
+    if (old_index != k_none) carriers = carriers_of(read_old_points(old_index));
 
     BodyPose pose_a = unpack(poses[pair.body_a]);
     BodyPose pose_b = unpack(poses[pair.body_b]);
@@ -185,7 +189,8 @@ void main()
     compare_with_last(pair_index, manifold);
     if (g.count == 0u) return;
     point_separations[pair_index] = pack(make_separations(g));
-    for (uint i = 0u; i < 4u; ++i) {
-        if (i < g.count) manifold_points[4u * pair_index + i] = pack(make_point(g, i));
-    }
+    put_point(pair_index, 0u, g.count, g.points[0], g.features[0]);
+    put_point(pair_index, 1u, g.count, g.points[1], g.features[1]);
+    put_point(pair_index, 2u, g.count, g.points[2], g.features[2]);
+    put_point(pair_index, 3u, g.count, g.points[3], g.features[3]);
 }

@@ -15,17 +15,6 @@
 namespace talus::engine {
 namespace {
 
-Carriers read_carriers(const CpuState& state, uint old_index) {
-    const Manifold& manifold = state.old_manifolds[old_index];
-    const ManifoldPoint* const points = &state.old_manifold_points[std::size_t{4} * old_index];
-    const vec4& impulses = state.old_point_impulses[old_index].normal;
-    Carriers carriers = no_carriers();
-    carriers.axis = manifold.axis;
-    for (uint i = 0; i < manifold.point_count; ++i)
-        if (impulses[static_cast<int>(i)] > 0.0f) carriers.features[i] = points[i].feature_id;
-    return carriers;
-}
-
 OldPoints read_old_points(const CpuState& state, uint old_index) {
     const Manifold& manifold = state.old_manifolds[old_index];
     const ManifoldPoint* const points = &state.old_manifold_points[std::size_t{4} * old_index];
@@ -127,7 +116,7 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
     if (g.count == 0) return;
     state.point_separations[in_hand.index] = make_separations(g);
     for (uint i = 0; i < g.count; ++i)
-        state.manifold_points[std::size_t{4} * in_hand.index + i] = make_point(g, i);
+        state.manifold_points[std::size_t{4} * in_hand.index + i] = make_point(g.points[i], g.features[i]);
 }
 
 constexpr uint k_part = 32; // pairs that a thread treats together
@@ -145,7 +134,8 @@ uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::a
         if (state.parameters.rest_steps > 0 && sleeps(state, pair))
             keep_manifold(state, index, old_index);
         else
-            in_hand[count++] = {index, old_index, old_index != k_none ? read_carriers(state, old_index) : no_carriers(),
+            in_hand[count++] = {index, old_index,
+                                old_index != k_none ? carriers_of(read_old_points(state, old_index)) : no_carriers(),
                                 no_query()};
     }
     return count;

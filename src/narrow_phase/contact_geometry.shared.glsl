@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the collision of two shapes gives, whatever the shapes: the geometry of a manifold.
+//
+// What is done with the four points is written out here and where they are used: to NVIDIA's compiler the variable of a loop is an
+// index known only at run time, and what has an array with such an index is no register.
 
 const uint k_axis_none = 0xffu; // spheres have no separating axis to remember
 const float k_far_apart = 3.0e38f; // m: farther than anyone looks
@@ -25,11 +28,9 @@ inline ContactGeometry no_contact()
     g.shift = vec3(0.0f, 0.0f, 0.0f);
     g.separation = k_far_apart;
     g.count = 0u;
-    for (uint i = 0u; i < 4u; i += 1u) {
-        g.points[i] = vec3(0.0f, 0.0f, 0.0f);
-        g.separations[i] = 0.0f;
-        g.features[i] = 0u;
-    }
+    g.points[0] = g.points[1] = g.points[2] = g.points[3] = vec3(0.0f, 0.0f, 0.0f);
+    g.separations[0] = g.separations[1] = g.separations[2] = g.separations[3] = 0.0f;
+    g.features[0] = g.features[1] = g.features[2] = g.features[3] = 0u;
     return g;
 }
 
@@ -49,10 +50,14 @@ inline ContactGeometry swap_bodies(ContactGeometry g, vec3 offset)
 {
     ContactGeometry r = g;
     r.normal = vec3(-g.normal.x, -g.normal.y, -g.normal.z);
-    for (uint i = 0u; i < 4u; i += 1u) {
-        precise vec3 point = g.points[i] - offset;
-        r.points[i] = point;
-    }
+    precise vec3 point_0 = g.points[0] - offset;
+    precise vec3 point_1 = g.points[1] - offset;
+    precise vec3 point_2 = g.points[2] - offset;
+    precise vec3 point_3 = g.points[3] - offset;
+    r.points[0] = point_0;
+    r.points[1] = point_1;
+    r.points[2] = point_2;
+    r.points[3] = point_3;
     return r;
 }
 
@@ -66,8 +71,7 @@ inline Carriers no_carriers()
 {
     Carriers carriers;
     carriers.axis = k_axis_none;
-    for (uint i = 0u; i < 4u; i += 1u)
-        carriers.features[i] = k_none;
+    carriers.features[0] = carriers.features[1] = carriers.features[2] = carriers.features[3] = k_none;
     return carriers;
 }
 

@@ -64,10 +64,14 @@ inline ContactGeometry collide_moving_shapes(BodyPose pose_a, BodyShape shape_a,
         return no_contact();
     }
     met.separation = separation;
-    for (uint i = 0u; i < 4u; i += 1u) {
-        precise float before = met.separations[i] - approached;
-        met.separations[i] = before;
-    }
+    precise float separation_0 = met.separations[0] - approached;
+    precise float separation_1 = met.separations[1] - approached;
+    precise float separation_2 = met.separations[2] - approached;
+    precise float separation_3 = met.separations[3] - approached;
+    met.separations[0] = separation_0;
+    met.separations[1] = separation_1;
+    met.separations[2] = separation_2;
+    met.separations[3] = separation_3;
     met.shift = scale3(motion, time);
     return met;
 }

@@ -91,47 +91,88 @@ struct OldPoints {
     float impulses[4]; // N s, along the normal
 };
 
+inline uint carrying_feature(OldPoints old, uint i)
+{
+    return i < old.count && old.impulses[i] > 0.0f ? old.features[i] : k_none;
+}
+
+inline Carriers carriers_of(OldPoints old)
+{
+    Carriers carriers;
+    carriers.axis = old.axis;
+    carriers.features[0] = carrying_feature(old, 0u);
+    carriers.features[1] = carrying_feature(old, 1u);
+    carriers.features[2] = carrying_feature(old, 2u);
+    carriers.features[3] = carrying_feature(old, 3u);
+    return carriers;
+}
+
 struct PointMatch {
     uint old_index[4]; // for each new point the old one, or k_none
 };
 
-inline PointMatch no_match()
+// The first of the old points that are free, a bit each, with this name; k_none: there is none.
+inline uint find_namesake(OldPoints old, uint free, uint feature)
 {
-    PointMatch match;
-    for (uint i = 0u; i < 4u; i += 1u)
-        match.old_index[i] = k_none;
-    return match;
+    uint named = (old.features[0] == feature ? 1u : 0u) | (old.features[1] == feature ? 2u : 0u) |
+                 (old.features[2] == feature ? 4u : 0u) | (old.features[3] == feature ? 8u : 0u);
+    named &= free;
+    return named == 0u ? k_none : uint(findLSB(named));
 }
+
+struct Nearest {
+    uint index;
+    float square; // m^2, the square of its distance
+};
+
+inline Nearest nearer(Nearest best, vec3 anchor, uint index, uint free, vec3 point)
+{
+    precise vec3 apart = anchor - point;
+    float square = dot3(apart, apart);
+    if (((free >> index) & 1u) != 0u && square < best.square) {
+        best.index = index;
+        best.square = square;
+    }
+    return best;
+}
+
+inline uint find_nearest(OldPoints old, uint free, vec3 point)
+{
+    Nearest best;
+    best.index = k_none;
+    best.square = k_anchor_match * k_anchor_match;
+    best = nearer(best, old.anchors[0], 0u, free, point);
+    best = nearer(best, old.anchors[1], 1u, free, point);
+    best = nearer(best, old.anchors[2], 2u, free, point);
+    best = nearer(best, old.anchors[3], 3u, free, point);
+    return best.index;
+}
+
+inline uint without(uint free, uint index) { return index == k_none ? free : free & ~(1u << index); }
 
 // Feature ids say the same only on the same separating axis.
 inline PointMatch match_points(ContactGeometry g, OldPoints old)
 {
-    bool same_axis = g.axis == old.axis;
-    PointMatch match = no_match();
-    uint taken = 0u;
-    for (uint i = 0u; i < 4u; i += 1u) {
-        for (uint k = 0u; k < 4u; k += 1u) {
-            bool is_free = k < old.count && ((taken >> k) & 1u) == 0u && match.old_index[i] == k_none;
-            if (same_axis && i < g.count && is_free && old.features[k] == g.features[i]) {
-                match.old_index[i] = k;
-                taken |= 1u << k;
-            }
-        }
+    PointMatch match;
+    match.old_index[0] = match.old_index[1] = match.old_index[2] = match.old_index[3] = k_none;
+    uint free = (1u << old.count) - 1u;
+    if (g.axis == old.axis) {
+        if (0u < g.count) match.old_index[0] = find_namesake(old, free, g.features[0]);
+        free = without(free, match.old_index[0]);
+        if (1u < g.count) match.old_index[1] = find_namesake(old, free, g.features[1]);
+        free = without(free, match.old_index[1]);
+        if (2u < g.count) match.old_index[2] = find_namesake(old, free, g.features[2]);
+        free = without(free, match.old_index[2]);
+        if (3u < g.count) match.old_index[3] = find_namesake(old, free, g.features[3]);
+        free = without(free, match.old_index[3]);
     }
-    for (uint i = 0u; i < 4u; i += 1u) {
-        if (i < g.count && match.old_index[i] == k_none) {
-            float nearest = k_anchor_match * k_anchor_match;
-            for (uint k = 0u; k < 4u; k += 1u) {
-                precise vec3 apart = old.anchors[k] - g.points[i];
-                float square = dot3(apart, apart);
-                if (k < old.count && ((taken >> k) & 1u) == 0u && square < nearest) {
-                    nearest = square;
-                    match.old_index[i] = k;
-                }
-            }
-            if (match.old_index[i] != k_none) taken |= 1u << match.old_index[i];
-        }
-    }
+    if (0u < g.count && match.old_index[0] == k_none) match.old_index[0] = find_nearest(old, free, g.points[0]);
+    free = without(free, match.old_index[0]);
+    if (1u < g.count && match.old_index[1] == k_none) match.old_index[1] = find_nearest(old, free, g.points[1]);
+    free = without(free, match.old_index[1]);
+    if (2u < g.count && match.old_index[2] == k_none) match.old_index[2] = find_nearest(old, free, g.points[2]);
+    free = without(free, match.old_index[2]);
+    if (3u < g.count && match.old_index[3] == k_none) match.old_index[3] = find_nearest(old, free, g.points[3]);
     return match;
 }
 
@@ -149,23 +190,22 @@ inline vec4 carry_impulses(ContactGeometry g, OldPoints old)
                 impulse_of(old, match.old_index[2]), impulse_of(old, match.old_index[3]));
 }
 
-// Point i of the new manifold.
-inline ManifoldPoint make_point(ContactGeometry g, uint i)
+// A point of the new manifold.
+inline ManifoldPoint make_point(vec3 anchor, uint feature)
 {
     ManifoldPoint point;
-    point.anchor = g.points[i];
-    point.feature_id = g.features[i];
+    point.anchor = anchor;
+    point.feature_id = feature;
     return point;
 }
-
-inline float separation_of(ContactGeometry g, uint i) { return i < g.count ? g.separations[i] : 0.0f; }
 
 // Of all points of the new manifold.
 inline Separations make_separations(ContactGeometry g)
 {
     Separations separations;
     separations.separation =
-        vec4(separation_of(g, 0u), separation_of(g, 1u), separation_of(g, 2u), separation_of(g, 3u));
+        vec4(0u < g.count ? g.separations[0] : 0.0f, 1u < g.count ? g.separations[1] : 0.0f,
+             2u < g.count ? g.separations[2] : 0.0f, 3u < g.count ? g.separations[3] : 0.0f);
     separations.shift = g.shift;
     separations.reserved = 0.0f;
     return separations;
