@@ -55,10 +55,12 @@ inline AxisQuery try_edges(AxisQuery best, BoxPair p, vec3 edge_a, vec3 edge_b, 
 {
     vec3 across = cross3(edge_a, edge_b);
     float square = dot3(across, across);
-    if (!any_lane(square > k_parallel)) return best;
-    vec3 direction = scale3(across, inverse_sqrt(square));
-    return choose_active(square > k_parallel,
-                         better_axis(best, separation_along(p, direction), 0.0f, axis, old_axis), best);
+    if (any_lane(square > k_parallel)) {
+        vec3 direction = scale3(across, inverse_sqrt(square));
+        best = choose_active(square > k_parallel,
+                             better_axis(best, separation_along(p, direction), 0.0f, axis, old_axis), best);
+    }
+    return best;
 }
 
 // Face queries of both boxes (algorithm 5) and the edge query (algorithm 6). Written out for lanes, which cannot choose

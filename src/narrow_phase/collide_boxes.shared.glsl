@@ -188,14 +188,15 @@ inline uint without_lowest(uint corners) { return corners & (corners - 1u); }
 // Point i of the contact is the lowest of `corners`, a bit each, if there is one.
 inline ContactGeometry keep_corner(ContactGeometry g, uint i, Polygon polygon, uint corners, Axes frame, float half_n)
 {
-    if (corners == 0u) return g;
-    uint lowest = uint(findLSB(corners));
-    vec3 corner = corner_of(polygon, lowest);
-    // Projected on the reference face, then moved half-way to the incident one.
-    precise vec3 local = vec3(corner.x, corner.y, half_n + 0.5f * corner.z);
-    g.points[i] = to_world(frame, local);
-    g.separations[i] = corner.z;
-    g.features[i] = feature_of(polygon, lowest);
+    if (corners != 0u) {
+        uint lowest = uint(findLSB(corners));
+        vec3 corner = corner_of(polygon, lowest);
+        // Projected on the reference face, then moved half-way to the incident one.
+        precise vec3 local = vec3(corner.x, corner.y, half_n + 0.5f * corner.z);
+        g.points[i] = to_world(frame, local);
+        g.separations[i] = corner.z;
+        g.features[i] = feature_of(polygon, lowest);
+    }
     return g;
 }
 
@@ -262,11 +263,12 @@ inline bool is_almost_normal(vec3 across, vec3 axis)
 inline uint axis_of_contact(BoxPair p, AxisQuery query, uint old_axis)
 {
     uint axis = query.axis;
-    if (axis < 6u || query.separation > k_near) return axis;
-    vec3 across = cross3(axis_of(p.a, (axis - 6u) / 3u), axis_of(p.b, (axis - 6u) % 3u));
-    for (uint face = 0u; face < 6u; face += 1u) {
-        vec3 normal = face < 3u ? axis_of(p.a, face) : axis_of(p.b, face - 3u);
-        if ((axis >= 6u || face == old_axis) && is_almost_normal(across, normal)) axis = face;
+    if (axis >= 6u && !(query.separation > k_near)) {
+        vec3 across = cross3(axis_of(p.a, (axis - 6u) / 3u), axis_of(p.b, (axis - 6u) % 3u));
+        for (uint face = 0u; face < 6u; face += 1u) {
+            vec3 normal = face < 3u ? axis_of(p.a, face) : axis_of(p.b, face - 3u);
+            if ((axis >= 6u || face == old_axis) && is_almost_normal(across, normal)) axis = face;
+        }
     }
     return axis;
 }
@@ -343,15 +345,20 @@ inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, AxisQuery kno
 {
     AxisQuery query = known;
     if (known.axis == k_axis_none) query = query_axes(p, carriers.axis);
-    if (query.separation > max_separation) return no_contact();
-    uint axis = axis_of_contact(p, query, carriers.axis);
-    if (axis < 6u) {
-        ContactGeometry g = contact_at_face(p, axis, carriers, max_separation);
-        g.separation = query.separation;
-        // Just before the boxes touch a face that stands for edges may have no point.
-        if (query.axis < 6u || g.count > 0u) return g;
+    ContactGeometry g = no_contact();
+    if (!(query.separation > max_separation)) {
+        uint axis = axis_of_contact(p, query, carriers.axis);
+        bool is_at_face = axis < 6u;
+        if (is_at_face) {
+            g = contact_at_face(p, axis, carriers, max_separation);
+            g.separation = query.separation;
+            // Just before the boxes touch a face that stands for edges may have no point.
+            is_at_face = query.axis < 6u || g.count > 0u;
+        }
+        if (!is_at_face) {
+            g = edge_contact(p, (query.axis - 6u) / 3u, (query.axis - 6u) % 3u, query.separation);
+            g.axis = query.axis;
+        }
     }
-    ContactGeometry g = edge_contact(p, (query.axis - 6u) / 3u, (query.axis - 6u) % 3u, query.separation);
-    g.axis = query.axis;
     return g;
 }

@@ -45,6 +45,13 @@ inline ContactGeometry one_contact(vec3 normal, vec3 point, float separation)
     return g;
 }
 
+inline ContactGeometry contact_within(float max_separation, vec3 normal, vec3 point, float separation)
+{
+    ContactGeometry g = no_contact();
+    if (!(separation > max_separation)) g = one_contact(normal, point, separation);
+    return g;
+}
+
 // The same contact seen from the other body, whose centre lies at `offset` from A's.
 inline ContactGeometry swap_bodies(ContactGeometry g, vec3 offset)
 {

@@ -9,24 +9,26 @@ inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPo
     precise vec3 offset = pose_b.position - pose_a.position;
     uint type_a = shape_a.type & 255u;
     uint type_b = shape_b.type & 255u;
+    ContactGeometry g;
     if (type_a == k_shape_box && type_b == k_shape_box) {
-        return collide_boxes(make_box_pair(pose_a, shape_a, pose_b, shape_b), carriers, known, max_separation);
+        g = collide_boxes(make_box_pair(pose_a, shape_a, pose_b, shape_b), carriers, known, max_separation);
+    } else if (type_a == k_shape_box || type_b == k_shape_box) {
+        vec4 rotation_of_box = pose_a.rotation;
+        BodyShape box = shape_a;
+        BodyShape sphere = shape_b;
+        vec3 from_box = offset;
+        if (type_a != k_shape_box) {
+            rotation_of_box = pose_b.rotation;
+            box = shape_b;
+            sphere = shape_a;
+            from_box = vec3(-offset.x, -offset.y, -offset.z);
+        }
+        g = collide_box_sphere(rotation_axes(rotation_of_box), box.half_extents, sphere.half_extents.x, from_box,
+                               max_separation);
+        if (type_a != k_shape_box) g = swap_bodies(g, from_box);
+    } else {
+        g = collide_spheres(shape_a.half_extents.x, shape_b.half_extents.x, offset, max_separation);
     }
-    if (type_a != k_shape_box && type_b != k_shape_box)
-        return collide_spheres(shape_a.half_extents.x, shape_b.half_extents.x, offset, max_separation);
-    vec4 rotation_of_box = pose_a.rotation;
-    BodyShape box = shape_a;
-    BodyShape sphere = shape_b;
-    vec3 from_box = offset;
-    if (type_a != k_shape_box) {
-        rotation_of_box = pose_b.rotation;
-        box = shape_b;
-        sphere = shape_a;
-        from_box = vec3(-offset.x, -offset.y, -offset.z);
-    }
-    ContactGeometry g = collide_box_sphere(rotation_axes(rotation_of_box), box.half_extents, sphere.half_extents.x, from_box,
-                                           max_separation);
-    if (type_a != k_shape_box) g = swap_bodies(g, from_box);
     return g;
 }
 
@@ -36,10 +38,11 @@ inline float combine(float a, float b, uint rule_a, uint rule_b)
     uint rule = min(rule_a, rule_b);
     precise float average = 0.5f * (a + b);
     precise float product = a * b;
-    if (rule == k_combine_average) return average;
-    if (rule == k_combine_minimum) return min(a, b);
-    if (rule == k_combine_maximum) return max(a, b);
-    return product;
+    float combined = product;
+    if (rule == k_combine_average) combined = average;
+    if (rule == k_combine_minimum) combined = min(a, b);
+    if (rule == k_combine_maximum) combined = max(a, b);
+    return combined;
 }
 
 inline float combine_friction(BodyProperties a, BodyProperties b)
@@ -178,8 +181,8 @@ inline PointMatch match_points(ContactGeometry g, OldPoints old)
 
 inline float impulse_of(OldPoints old, uint i)
 {
-    if (i < 2u) return i == 0u ? old.impulses[0] : old.impulses[1];
-    return i == 2u ? old.impulses[2] : (i == 3u ? old.impulses[3] : 0.0f);
+    return i < 2u ? (i == 0u ? old.impulses[0] : old.impulses[1])
+                  : (i == 2u ? old.impulses[2] : (i == 3u ? old.impulses[3] : 0.0f));
 }
 
 // What each new point starts from.
@@ -214,8 +217,7 @@ inline Separations make_separations(ContactGeometry g)
 // For bodies that the caller has just put together: the load is not known yet. Without gravity none builds up.
 inline Manifold begin_trial(Manifold manifold, Parameters p)
 {
-    if (dot3(p.gravity, p.gravity) == 0.0f) return manifold;
-    manifold.demand = make_demand(p.most_substeps, k_trial, k_unknown_height);
+    if (dot3(p.gravity, p.gravity) != 0.0f) manifold.demand = make_demand(p.most_substeps, k_trial, k_unknown_height);
     return manifold;
 }
 

@@ -31,7 +31,8 @@ uint label_of(Polygon polygon, uint i) { return polygon_corners[corner_place(pol
 // What does not fit is left out: rounding may ask for a ninth.
 void add_corner(inout Polygon polygon, vec3 corner, uint label)
 {
-    if (polygon.count == k_polygon_corners) return;
-    polygon_corners[corner_place(polygon, polygon.count)] = uvec4(floatBitsToUint(corner), label);
-    polygon.count += 1u;
+    if (polygon.count < k_polygon_corners) {
+        polygon_corners[corner_place(polygon, polygon.count)] = uvec4(floatBitsToUint(corner), label);
+        polygon.count += 1u;
+    }
 }

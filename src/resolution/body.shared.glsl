@@ -74,9 +74,12 @@ inline vec3 limit_length(vec3 v, float limit)
 {
     float square = dot3(v, v);
     precise float square_limit = limit * limit;
-    if (!any_lane(square > square_limit)) return v;
-    precise float scale = limit * inverse_sqrt(square);
-    return choose_active(square > square_limit, scale3(v, scale), v);
+    vec3 limited = v;
+    if (any_lane(square > square_limit)) {
+        precise float scale = limit * inverse_sqrt(square);
+        limited = choose_active(square > square_limit, scale3(v, scale), v);
+    }
+    return limited;
 }
 
 // Angular velocity after h under no torque, in body axes: Euler's equation I w' = -w x I w by the implicit midpoint
@@ -212,29 +215,28 @@ inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm
                                        BodyInertia inertia, BodyLoad load, bool rigid, float h, Parameters p)
 {
     precise vec3 linear = velocity.linear + acceleration_by_forces(velocity, body, load, p) * h;
-    if (!any_lane(rigid)) { // a kinematic body: gravity if its caller asked for it, nothing else
-        velocity.linear = linear;
-        return velocity;
+    velocity.linear = linear; // of a kinematic body: gravity if its caller asked for it, nothing else
+    if (any_lane(rigid)) {
+        precise vec3 angular = velocity.angular + multiply_inertia(inertia, load.torque) * h;
+        float linear_factor = damping_factor(body.linear_damping, h);
+        float angular_factor = damping_factor(body.angular_damping, h);
+        angular = limit_length(angular, p.max_angular_speed);
+        vec3 d = body.inverse_inertia;
+        if (any_lane(d.x != d.y || d.y != d.z)) {
+            vec3 local = rotate_back(rotation, angular);
+            precise float turn = 4.0f * length3(local) * h; // in quarters of a radian
+            float whole = min(255.0f, turn); // in this order: of what is no number it is 255
+            uint parts = choose_active(d.x != d.y || d.y != d.z, uint(whole) + 1u, 1u);
+            precise float part = h * reciprocal(float(parts));
+            for (uint i = 0u; any_lane(i < parts); i += 1u)
+                local = choose_active(i < parts, turn_freely(local, d, part), local);
+            angular = choose_active(d.x != d.y || d.y != d.z, rotate(rotation, local), angular);
+        }
+        precise vec3 started_linear = limit_length(scale3(linear, linear_factor), p.max_linear_speed) + warm.linear;
+        precise vec3 started_angular = limit_length(scale3(angular, angular_factor), p.max_angular_speed) + warm.angular;
+        velocity.linear = choose_active(rigid, started_linear, linear);
+        velocity.angular = choose_active(rigid, started_angular, velocity.angular);
     }
-    precise vec3 angular = velocity.angular + multiply_inertia(inertia, load.torque) * h;
-    float linear_factor = damping_factor(body.linear_damping, h);
-    float angular_factor = damping_factor(body.angular_damping, h);
-    angular = limit_length(angular, p.max_angular_speed);
-    vec3 d = body.inverse_inertia;
-    if (any_lane(d.x != d.y || d.y != d.z)) {
-        vec3 local = rotate_back(rotation, angular);
-        precise float turn = 4.0f * length3(local) * h; // in quarters of a radian
-        float whole = min(255.0f, turn); // in this order: of what is no number it is 255
-        uint parts = choose_active(d.x != d.y || d.y != d.z, uint(whole) + 1u, 1u);
-        precise float part = h * reciprocal(float(parts));
-        for (uint i = 0u; any_lane(i < parts); i += 1u)
-            local = choose_active(i < parts, turn_freely(local, d, part), local);
-        angular = choose_active(d.x != d.y || d.y != d.z, rotate(rotation, local), angular);
-    }
-    precise vec3 started_linear = limit_length(scale3(linear, linear_factor), p.max_linear_speed) + warm.linear;
-    precise vec3 started_angular = limit_length(scale3(angular, angular_factor), p.max_angular_speed) + warm.angular;
-    velocity.linear = choose_active(rigid, started_linear, linear);
-    velocity.angular = choose_active(rigid, started_angular, velocity.angular);
     return velocity;
 }
 

@@ -22,33 +22,34 @@ void integrate_body(uint body, uint tick)
     BodyProperties its_properties = unpack(properties[body]);
     BodyLoad load = unpack(loads[body]);
     uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
-    if (substep > inertia.substeps || !is_own(inertia) || (inertia.traits & k_trait_moves) == 0u) return;
-    if ((pose.flags & k_body_frozen) != 0u) return;
-    BodyVelocity velocity = load_settled_velocity(slot, inertia.traits);
-    float h = substep_length(inertia.substeps, parameters);
-    if (substep > 0u) {
-        BodyVelocity limited = limit_speeds(velocity, parameters);
-        warm = leave_out(warm, velocity, limited);
-        velocity = limited;
-        vec3 falling = falling_acceleration(velocity, warm, its_properties, inertia, load, h, parameters);
-        delta = integrate_position(delta, warm, velocity, falling, h);
-        store_delta(body, slot, delta);
+    bool takes_part = substep <= inertia.substeps && is_own(inertia) && (inertia.traits & k_trait_moves) != 0u;
+    if (takes_part && (pose.flags & k_body_frozen) == 0u) {
+        BodyVelocity velocity = load_settled_velocity(slot, inertia.traits);
+        float h = substep_length(inertia.substeps, parameters);
+        if (substep > 0u) {
+            BodyVelocity limited = limit_speeds(velocity, parameters);
+            warm = leave_out(warm, velocity, limited);
+            velocity = limited;
+            vec3 falling = falling_acceleration(velocity, warm, its_properties, inertia, load, h, parameters);
+            delta = integrate_position(delta, warm, velocity, falling, h);
+            store_delta(body, slot, delta);
+        }
+        if (substep < inertia.substeps) {
+            vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
+            warm = gather_impulses(warm, velocity);
+            velocity = integrate_velocity(velocity, warm, rotation, its_properties, inertia, load,
+                                          (inertia.traits & k_trait_movable) != 0u, h, parameters);
+            if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
+                velocity = frozen_velocity();
+                warm = no_warm_start(velocity);
+                pose.flags |= k_body_frozen;
+                poses[body] = pack(pose);
+                atomicAdd(counters[k_counter_frozen_bodies], 1u);
+            }
+            warm.linear_before = velocity.linear;
+            warm.angular_before = velocity.angular;
+            warm_starts[body] = pack(warm);
+            store_velocity(slot, velocity);
+        }
     }
-    if (substep == inertia.substeps) return;
-
-    vec4 rotation = multiply_quaternions(delta.rotation, pose.rotation);
-    warm = gather_impulses(warm, velocity);
-    velocity = integrate_velocity(velocity, warm, rotation, its_properties, inertia, load,
-                                  (inertia.traits & k_trait_movable) != 0u, h, parameters);
-    if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
-        velocity = frozen_velocity();
-        warm = no_warm_start(velocity);
-        pose.flags |= k_body_frozen;
-        poses[body] = pack(pose);
-        atomicAdd(counters[k_counter_frozen_bodies], 1u);
-    }
-    warm.linear_before = velocity.linear;
-    warm.angular_before = velocity.angular;
-    warm_starts[body] = pack(warm);
-    store_velocity(slot, velocity);
 }

@@ -162,12 +162,10 @@ ManifoldState pass_over_hit(uint index, float old_share)
 void put_velocity(uint index, uint tick, uint body, uint slot, uint its_traits, float part, BodyVelocity before,
                   BodyVelocity after)
 {
-    if (after.inverse_mass == 0.0) return;
     if (k_multirate_islands) after = change_in_part(before, after, part);
-    if (k_hubs && (its_traits & k_trait_hub) != 0u)
-        put_change(index, change_of_hub(body, before, after, hub_share, tick));
-    else
-        store_velocity(slot, after);
+    bool is_hub = k_hubs && (its_traits & k_trait_hub) != 0u;
+    if (after.inverse_mass != 0.0 && is_hub) put_change(index, change_of_hub(body, before, after, hub_share, tick));
+    if (after.inverse_mass != 0.0 && !is_hub) store_velocity(slot, after);
 }
 
 // After the relax pass no sub-step follows that could have a part.
@@ -180,17 +178,21 @@ void put_velocities(uint index, uint pass, uint tick, VelocityPair before, Veloc
 // What a pass over the constraint in hand, whose index it is, makes of its bodies' velocities.
 VelocityPair solve_constraint(uint pass, uint index, PassTarget target, VelocityPair velocities)
 {
-    if (pass == k_warm_start) return warm_start_manifold(velocities, rows, impulses);
-    ManifoldState before = begin_pass(velocities);
-    ManifoldState solved = solve_manifold(before, rows, target);
-    solved.impulses.slip = slip_of_target;
-    if (k_bounces && solved.is_hit && can_be_hit(index, before)) {
-        if (pass == k_relax) return velocities; // the next step's
-        solved = pass_over_hit(index, target.old_share);
+    if (pass == k_warm_start) {
+        velocities = warm_start_manifold(velocities, rows, impulses);
+    } else {
+        ManifoldState before = begin_pass(velocities);
+        ManifoldState solved = solve_manifold(before, rows, target);
+        solved.impulses.slip = slip_of_target;
+        bool is_hit = k_bounces && solved.is_hit && can_be_hit(index, before);
+        bool is_of_next_step = is_hit && pass == k_relax;
+        if (is_hit && !is_of_next_step) solved = pass_over_hit(index, target.old_share);
+        if (!is_of_next_step && is_finite_pair(solved.velocities)) { // what has gone wrong here is kept from the bodies
+            impulses = solved.impulses;
+            velocities = solved.velocities;
+        }
     }
-    if (!is_finite_pair(solved.velocities)) return velocities; // what has gone wrong here is kept from the bodies
-    impulses = solved.impulses;
-    return solved.velocities;
+    return velocities;
 }
 
 void pass_over_constraint(uint pass, uint tick, uint index, PassTarget target)

@@ -164,27 +164,28 @@ inline ManifoldRows couple_rows(ManifoldRows rows, NormalResponse r)
 // Of a share of a hub. `its_traits`: the constraint's, of this body.
 inline BodyInertia share_inertia(BodyInertia m, float hub_share, uint its_traits)
 {
-    if (all_lanes((its_traits & k_trait_hub) == 0u)) return m;
-    float shares = choose_active((its_traits & k_trait_hub) != 0u, reciprocal(hub_share), 1.0f);
-    precise vec3 diagonal = vec3(m.xx, m.yy, m.zz) * shares;
-    precise vec3 rest = vec3(m.xy, m.xz, m.yz) * shares;
-    BodyInertia share;
-    share.xx = diagonal.x;
-    share.yy = diagonal.y;
-    share.zz = diagonal.z;
-    share.xy = rest.x;
-    share.xz = rest.y;
-    share.yz = rest.z;
-    share.traits = m.traits;
-    share.substeps = m.substeps;
-    return share;
+    if (any_lane((its_traits & k_trait_hub) != 0u)) {
+        float shares = choose_active((its_traits & k_trait_hub) != 0u, reciprocal(hub_share), 1.0f);
+        precise vec3 diagonal = vec3(m.xx, m.yy, m.zz) * shares;
+        precise vec3 rest = vec3(m.xy, m.xz, m.yz) * shares;
+        m.xx = diagonal.x;
+        m.yy = diagonal.y;
+        m.zz = diagonal.z;
+        m.xy = rest.x;
+        m.xz = rest.y;
+        m.yz = rest.z;
+    }
+    return m;
 }
 
 inline float share_inverse_mass(float inverse_mass, float hub_share, uint its_traits)
 {
-    if (all_lanes((its_traits & k_trait_hub) == 0u)) return inverse_mass;
-    precise float of_share = inverse_mass * reciprocal(hub_share);
-    return choose_active((its_traits & k_trait_hub) != 0u, of_share, inverse_mass);
+    float share = inverse_mass;
+    if (any_lane((its_traits & k_trait_hub) != 0u)) {
+        precise float of_share = inverse_mass * reciprocal(hub_share);
+        share = choose_active((its_traits & k_trait_hub) != 0u, of_share, inverse_mass);
+    }
+    return share;
 }
 
 inline Meeting make_meeting(ContactConstraint c, BodyInertia inertia_a, BodyInertia inertia_b)

@@ -78,16 +78,16 @@ inline Substep make_substep(uint substeps, bool against_static, float load_speed
         s.soft.impulse_scale = 0.0f;
         s.push_speed = p.contact_push_speed;
         s.let_go = 0.0f;
-        return s;
+    } else {
+        float w = contact_frequency_at(substeps, against_static, p);
+        float heavy = heaviness(load_speed);
+        precise float damping_ratio = p.contact_damping_ratio * square_root(heavy);
+        s.soft = soft_row(w, damping_ratio, h);
+        precise float slower = p.contact_push_speed * max(reciprocal(heavy), k_least_push_share);
+        precise float let_go = max(heavy - k_throwing, 0.0f);
+        s.let_go = let_go;
+        s.push_speed = choose(heavy > 1.0f, slower, p.contact_push_speed);
     }
-    float w = contact_frequency_at(substeps, against_static, p);
-    float heavy = heaviness(load_speed);
-    precise float damping_ratio = p.contact_damping_ratio * square_root(heavy);
-    s.soft = soft_row(w, damping_ratio, h);
-    precise float slower = p.contact_push_speed * max(reciprocal(heavy), k_least_push_share);
-    precise float let_go = max(heavy - k_throwing, 0.0f);
-    s.let_go = let_go;
-    s.push_speed = choose(heavy > 1.0f, slower, p.contact_push_speed);
     return s;
 }
 

@@ -58,11 +58,14 @@ bool deltas_have_places() { return 2u * slots <= k_places; }
 
 BodyDelta load_delta(uint body, uint slot)
 {
-    if (!deltas_have_places()) return load_stored_delta(body);
     BodyDelta delta;
-    delta.position = vec3_at(slots + slot);
-    delta.reserved = 0.0;
-    delta.rotation = vec4s[slots + slot];
+    if (deltas_have_places()) {
+        delta.position = vec3_at(slots + slot);
+        delta.reserved = 0.0;
+        delta.rotation = vec4s[slots + slot];
+    } else {
+        delta = load_stored_delta(body);
+    }
     return delta;
 }
 

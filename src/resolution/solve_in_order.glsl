@@ -39,9 +39,10 @@ bool is_frozen(BodyVelocityCells velocity)
 BodyVelocity without_stamps(BodyVelocityCells cells, uint body)
 {
     BodyVelocity velocity = unpack(cells);
-    if (!has_stamps(cells)) return velocity;
-    velocity.inverse_mass = is_frozen(cells) ? 0.0 : unpack(properties[body]).inverse_mass;
-    velocity.stamp = 0u;
+    if (has_stamps(cells)) {
+        velocity.inverse_mass = is_frozen(cells) ? 0.0 : unpack(properties[body]).inverse_mass;
+        velocity.stamp = 0u;
+    }
     return velocity;
 }
 
@@ -54,19 +55,18 @@ BodyVelocity load_velocity(uint body)
 // What contacts make of a body. Nobody waits for what they cannot push, or for the last contact of the last pass.
 void store_in_order(uint body, uint its_traits, BodyVelocityCells before, BodyVelocity changed, uint earlier, bool is_last)
 {
-    if ((its_traits & k_trait_movable) == 0u) return;
+    bool is_movable = (its_traits & k_trait_movable) != 0u;
     bool stays = is_frozen(before); // as it is, but those behind wait for it
-    if (is_last) {
-        if (has_stamps(before) || !stays) store_velocity(body, stays ? frozen_velocity() : changed);
-        return;
+    if (is_movable && is_last && (has_stamps(before) || !stays)) store_velocity(body, stays ? frozen_velocity() : changed);
+    if (is_movable && !is_last) {
+        BodyVelocityCells stored = before;
+        if (!stays) stored = pack(changed);
+        uint of_frozen = stays ? k_stamp_of_frozen : 0u;
+        uint number = number_after(earlier + 1u);
+        stored.cell_0.w = stamp_of(stored.cell_0, number) | of_frozen;
+        stored.cell_1.w = stamp_of(stored.cell_1, number) | of_frozen;
+        velocities[body] = stored;
     }
-    BodyVelocityCells stored = before;
-    if (!stays) stored = pack(changed);
-    uint of_frozen = stays ? k_stamp_of_frozen : 0u;
-    uint number = number_after(earlier + 1u);
-    stored.cell_0.w = stamp_of(stored.cell_0, number) | of_frozen;
-    stored.cell_1.w = stamp_of(stored.cell_1, number) | of_frozen;
-    velocities[body] = stored;
 }
 
 // Where no relax pass has done so.
@@ -180,16 +180,18 @@ void forget_fast_colours(uint body)
 
 void note_fast_colour(uint body, uint its_traits, uint colour)
 {
-    if ((its_traits & k_trait_movable) == 0u) return;
-    for (uint power = slowness(traits); power < slowest_power(); ++power)
+    uint end = (its_traits & k_trait_movable) != 0u ? slowest_power() : 0u;
+    for (uint power = slowness(traits); power < end; ++power)
         atomicOr(fast_bodies[fast_word(body, power, used_word(colour))], used_bit(colour));
 }
 
 uint count_earlier_fast(uint body, uint its_traits, uint colour, uint power)
 {
-    if ((its_traits & k_trait_movable) == 0u) return 0u;
-    return count_earlier(fast_bodies[fast_word(body, power, k_used_low)], fast_bodies[fast_word(body, power, k_used_high)],
-                         colour);
+    uint count = 0u;
+    if ((its_traits & k_trait_movable) != 0u)
+        count = count_earlier(fast_bodies[fast_word(body, power, k_used_low)],
+                              fast_bodies[fast_word(body, power, k_used_high)], colour);
+    return count;
 }
 
 void note_unlike()
@@ -245,9 +247,8 @@ bool wait_for_turn(bool waits_together)
         fits = is_turn();
         is_to_look = !fits && looks_again(looks_in_hand);
     }
-    if (is_to_look) return false;
-    if (!fits) give_up();
-    return true;
+    if (!is_to_look && !fits) give_up();
+    return !is_to_look;
 }
 
 void pass_in_turn(uint pass, uint index, PassTarget target)

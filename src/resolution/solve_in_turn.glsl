@@ -47,10 +47,11 @@ void find_turns(uint index)
 {
     needed_turn_a = turn_after(earlier_of(counts, k_earlier_of_a));
     needed_turn_b = turn_after(earlier_of(counts, k_earlier_of_b));
-    if (index < end_index) return;
     // The overflow set is the first worker's, one contact after the other, behind all that have a colour.
-    needed_turn_a = turn_after(contacts_of_body(unpack(inertias[body_a]).traits));
-    needed_turn_b = turn_after(contacts_of_body(unpack(inertias[body_b]).traits));
+    if (index >= end_index) {
+        needed_turn_a = turn_after(contacts_of_body(unpack(inertias[body_a]).traits));
+        needed_turn_b = turn_after(contacts_of_body(unpack(inertias[body_b]).traits));
+    }
 }
 
 bool is_turn()
@@ -61,9 +62,9 @@ bool is_turn()
 
 void end_turns(uint index)
 {
-    if (index >= end_index) return;
-    if ((traits & k_trait_movable) != 0u) turns[slot_a] = number_after(earlier_of(counts, k_earlier_of_a) + 1u);
-    if ((traits & (k_trait_movable << k_traits_of_b)) != 0u)
+    bool has_colour = index < end_index;
+    if (has_colour && (traits & k_trait_movable) != 0u) turns[slot_a] = number_after(earlier_of(counts, k_earlier_of_a) + 1u);
+    if (has_colour && (traits & (k_trait_movable << k_traits_of_b)) != 0u)
         turns[slot_b] = number_after(earlier_of(counts, k_earlier_of_b) + 1u);
 }
 

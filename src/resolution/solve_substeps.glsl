@@ -51,11 +51,16 @@ void note_whether_unlike()
 
 bool has_substep(uint index, uint tick)
 {
-    if (tick < (k_multirate_islands ? 1u : parameters.least_substeps)) return true;
-    if (k_notes_unlike && !has_mark()) return most_have_substep(tick);
-    uint its_substeps = index == index_in_hand ? substeps : substeps_of_contact(cell_in_block(constraints, index, 0u).w);
-    if (!k_multirate_islands) return tick < its_substeps;
-    return substep_at(tick, index == index_in_hand ? traits : cell_in_block(constraints, index, 4u).w) < its_substeps;
+    bool is_early = tick < (k_multirate_islands ? 1u : parameters.least_substeps);
+    bool has = is_early || most_have_substep(tick);
+    if (!is_early && (!k_notes_unlike || has_mark())) {
+        uint its_substeps = index == index_in_hand ? substeps : substeps_of_contact(cell_in_block(constraints, index, 0u).w);
+        uint substep = tick;
+        if (k_multirate_islands)
+            substep = substep_at(tick, index == index_in_hand ? traits : cell_in_block(constraints, index, 4u).w);
+        has = substep < its_substeps;
+    }
+    return has;
 }
 
 // ---- the worker's manifolds ----
@@ -73,10 +78,11 @@ void find_own_manifolds()
 
 void take_in_hand(uint index)
 {
-    if (index == index_in_hand || index == k_none) return;
-    if (index_in_hand != k_none) put_back_impulses(index_in_hand);
-    take_constraint(index);
-    index_in_hand = index;
+    if (index != index_in_hand && index != k_none) {
+        if (index_in_hand != k_none) put_back_impulses(index_in_hand);
+        take_constraint(index);
+        index_in_hand = index;
+    }
 }
 
 // ---- passes ----
