@@ -61,43 +61,53 @@ void tell_load(LoadBelow load, uint height)
     atomicMax(told_loads[k_told_words * load.body + k_told_height], height);
 }
 
+vec3 anchor_at(uint pair, uint i) { return unpack(manifold_points[4u * pair + i]).anchor; }
+
 void main()
 {
     uint index = item_index();
     if (index >= counters[k_counter_manifold_count]) return;
     uint manifold_index = manifold_order[index];
     if (!is_among(manifold_index, args.x, args.y)) return;
+    // All that is known of the pair at once, and then of its bodies: loads behind a decision wait for what it is made from.
     Manifold manifold = unpack(manifolds[manifold_index]);
+    vec3 anchor_0 = anchor_at(manifold_index, 0u);
+    vec3 anchor_1 = anchor_at(manifold_index, 1u);
+    vec3 anchor_2 = anchor_at(manifold_index, 2u);
+    vec3 anchor_3 = anchor_at(manifold_index, 3u);
+    Separations separations = unpack(point_separations[manifold_index]);
+    vec4 impulses = unpack(point_impulses[manifold_index]).normal;
     float inverse_mass_a = unpack(velocities[manifold.body_a]).inverse_mass;
     float inverse_mass_b = unpack(velocities[manifold.body_b]).inverse_mass;
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
     BodyInertia inertia_b = unpack(inertias[manifold.body_b]);
+    vec3 position_a = unpack(poses[manifold.body_a]).position;
+    vec3 position_b = unpack(poses[manifold.body_b]).position;
     uint colour = colour_of_key(manifold_keys[index]);
     uint order = order_at(manifold.body_a, inertia_a.traits, colour, k_earlier_of_a, k_last_of_a) |
                  order_at(manifold.body_b, inertia_b.traits, colour, k_earlier_of_b, k_last_of_b);
     ContactConstraint c =
         begin_constraint(manifold, manifold_index, colour, order, share_of_contact(manifold, manifold_index, colour),
                          inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, parameters);
-    vec3 position_a = unpack(poses[manifold.body_a]).position;
-    vec3 position_b = unpack(poses[manifold.body_b]).position;
-    Separations separations = unpack(point_separations[manifold_index]);
     vec3 offset = offset_at_meeting(position_a, position_b, separations.shift);
-    for (uint i = 0u; i < 4u; ++i) {
-        if (i >= manifold.point_count) continue;
-        c = add_to_centre(c, unpack(manifold_points[4u * manifold_index + i]).anchor, offset);
-    }
+    if (0u < manifold.point_count) c = add_to_centre(c, anchor_0, offset);
+    if (1u < manifold.point_count) c = add_to_centre(c, anchor_1, offset);
+    if (2u < manifold.point_count) c = add_to_centre(c, anchor_2, offset);
+    if (3u < manifold.point_count) c = add_to_centre(c, anchor_3, offset);
     c = end_centre(c, position_a, position_b);
     Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
     tell_load(load_below(manifold, standing, inverse_mass_a, inverse_mass_b), height_of(manifold.demand));
     Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     NormalResponse response = respond_to_normals(meeting);
-    vec4 impulses = unpack(point_impulses[manifold_index]).normal;
-    for (uint i = 0u; i < 4u; ++i) {
-        if (i >= manifold.point_count) continue;
-        c = add_point(c, int(i), unpack(manifold_points[4u * manifold_index + i]).anchor, separations.separation[i],
-                      impulses[i], meeting, response);
-    }
+    if (0u < manifold.point_count)
+        c = add_point(c, 0, anchor_0, separations.separation.x, impulses.x, meeting, response);
+    if (1u < manifold.point_count)
+        c = add_point(c, 1, anchor_1, separations.separation.y, impulses.y, meeting, response);
+    if (2u < manifold.point_count)
+        c = add_point(c, 2, anchor_2, separations.separation.z, impulses.z, meeting, response);
+    if (3u < manifold.point_count)
+        c = add_point(c, 3, anchor_3, separations.separation.w, impulses.w, meeting, response);
     float force = force_of(manifold.lasting_weights, inverse_mass_a, inverse_mass_b, parameters);
     c.base_separation =
         lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, parameters);
