@@ -343,7 +343,7 @@ void Simulation::write_body_count(uint slots) {
     enqueued_slots = slots;
 }
 
-StepPlan Simulation::plan_in_launches(const Population& population, bool groups) const {
+StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve solve) const {
     const Passes passes = passes_of(settings);
     StepPlan now = plan;
     now.body_count = population.slots;
@@ -354,7 +354,8 @@ StepPlan Simulation::plan_in_launches(const Population& population, bool groups)
     if (now.broad_phase == BroadPhase::Auto) now.broad_phase = now.small ? BroadPhase::SweepAndPrune : BroadPhase::Bvh;
     now.one_island = population.some_kinematic;
     const bool one_group_each = now.small && plan.hub_capacity == 0;
-    now.in_groups = groups && (now.small ? one_group_each : !now.one_island) && placement.resolution->loops_freely();
+    const bool may_have_groups = now.small ? one_group_each : !now.one_island;
+    now.in_groups = solve == IslandSolve::Groups && may_have_groups && placement.resolution->loops_freely();
     now.singles = plan.singles && now.has_groups();
     now.bounces = population.some_bounce;
     now.kinematic = population.some_kinematic;
@@ -388,32 +389,29 @@ bool Simulation::may_launch(const Kernel& kernel) const {
 }
 
 StepPlan Simulation::plan_step(const Population& population) const {
-    StepPlan now = plan_in_launches(population, true);
-    if (now.in_groups && !may_launch(group_solver(now))) {
-        now = plan_in_launches(population, false);
-        now.awaits_kernels = true;
-    }
-    if (now.singles && !may_launch(single_solver(now))) {
-        now.singles = false;
-        now.awaits_kernels = true;
-    }
+    StepPlan now = plan_in_launches(population, IslandSolve::Groups);
+    // What the quickest plan has no use for is not asked for. What it has is, all at once: a driver compiles side by
+    // side.
+    const bool may_be_persistent = now.may_be_persistent() && placement.resolution->loops_freely();
+    const Kernel& persistent = persistent_solver(now);
+    const bool awaits_groups = now.in_groups && !may_launch(group_solver(now));
+    const bool awaits_singles = now.singles && !may_launch(single_solver(now));
+    const bool awaits_persistent = may_be_persistent && !may_launch(persistent);
+    if (awaits_groups) now = plan_in_launches(population, IslandSolve::Launches);
+    now.singles = now.singles && !awaits_singles;
+    now.awaits_kernels = awaits_groups || awaits_singles || awaits_persistent;
     if (now.hub_capacity > 0) now.weighing_groups = std::max(placement.resolution->resident_groups(weigh_hubs), 1u);
     if (!now.small) now.colouring_groups = std::max(placement.resolution->resident_groups(assign_colours), 1u);
-    if (!now.may_be_persistent() || !placement.resolution->loops_freely()) return now;
-    const Kernel& solver = persistent_solver(now);
-    if (!may_launch(solver)) {
-        now.awaits_kernels = true;
-        return now;
-    }
-    const uint groups = placement.resolution->resident_groups(solver);
-    const std::uint64_t invocations = std::uint64_t{groups} * solver.items_a_group;
+    if (!may_be_persistent || awaits_persistent) return now;
+    const uint groups = placement.resolution->resident_groups(persistent);
+    const std::uint64_t invocations = std::uint64_t{groups} * persistent.items_a_group;
     const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
     if (groups == 0 || passes > k_most_manifolds_each * invocations) return now;
     const std::uint64_t workers = persistent_workers(now, solved_count, invocations);
     // Islands that work groups solve are to run beside it, and it takes all of a multiprocessor for each of its groups.
     const uint spare = now.has_groups() ? groups / k_groups_a_spare : 0;
     now.persistent_groups =
-        static_cast<uint>(std::min<std::uint64_t>(groups - spare, workers / solver.items_a_group + 1));
+        static_cast<uint>(std::min<std::uint64_t>(groups - spare, workers / persistent.items_a_group + 1));
     now.colour_capacity = k_first_hub_colour; // nothing has to be known beforehand
     now.overflow = true;
     now.substep_capacity = now.most_substeps;
@@ -422,12 +420,12 @@ StepPlan Simulation::plan_step(const Population& population) const {
 
 void Simulation::prepare_kernels(const Population& population) {
     if (kernels_prepared || !gpu) return;
-    StepPlan quickest = plan_in_launches(population, true);
+    StepPlan quickest = plan_in_launches(population, IslandSolve::Groups);
     // How many groups it will have is found by a trial of the kernel itself.
     if (quickest.may_be_persistent() && gpu->loops_freely()) quickest.persistent_groups = 1;
     // What a large world may need at any time.
     quickest.singles = quickest.has_groups();
-    StepPlan first = waits_for_kernels ? quickest : plan_in_launches(population, false);
+    StepPlan first = waits_for_kernels ? quickest : plan_in_launches(population, IslandSolve::Launches);
     KernelList list(*gpu);
     const auto note = [&](Stage stage, const StepPlan& by) {
         if (&placement.of(stage) == gpu.get()) run_stage(list, stage, by);

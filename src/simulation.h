@@ -34,6 +34,9 @@ private:
     uint patience = k_first_patience;
 };
 
+/// What solves islands where work groups may do that.
+enum class IslandSolve : std::uint8_t { Groups, Launches };
+
 /// Where a simulation runs, and why there.
 struct Devices {
     std::unique_ptr<Device> gpu; ///< at least one of the two is there
@@ -135,8 +138,9 @@ private:
     /// With nothing on its way.
     void apply_now(const Population&, const BodyChanges&);
     void write_body_count(uint slots);
-    /// The next step's plan with a launch for each colour and pass, but for islands that work groups solve, if wanted.
-    StepPlan plan_in_launches(const Population&, bool groups) const;
+    /// The next step's plan without a persistent launch: with one for each colour and pass of all that no work groups
+    /// solve.
+    StepPlan plan_in_launches(const Population&, IslandSolve) const;
     /// Whether a step may launch one of the kernels that it can do without: they take a driver longest to compile.
     bool may_launch(const Kernel&) const;
     /// Before the first step: the GPU's driver may compile all of its kernels side by side.

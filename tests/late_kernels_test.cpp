@@ -3,9 +3,19 @@
 // instead, and nobody sees it by the bits.
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <random>
+#include <set>
+#include <string>
+#include <thread>
 #include <utility>
 #include <vector>
+
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +27,7 @@
 namespace talus::tests {
 namespace {
 
+namespace fs = std::filesystem;
 using engine::BufferId;
 using engine::Device;
 using engine::Kernel;
@@ -29,31 +40,32 @@ constexpr std::array k_solvers{&engine::solve_islands,        &engine::solve_bou
                                &engine::solve_single_islands, &engine::solve_bouncing_singles,
                                &engine::solve_persistent,     &engine::solve_multirate};
 
-/// Another device whose solvers that need no launch for each colour are not ready until it is told so.
+/// Another device, of which a test says which solvers are ready. It notes those that it is asked for and that it runs.
 class LateDevice final : public Device {
 public:
     explicit LateDevice(std::unique_ptr<Device> replaced) : device(std::move(replaced)) {}
 
-    bool has_solvers = false;
-    bool was_asked = false;  ///< for a solver that is not ready
-    bool has_solved = false; ///< by one
+    std::set<const Kernel*> late;
+    std::set<const Kernel*> asked;
+    std::set<const Kernel*> ran;
 
     bool is_ready(const Kernel& kernel) override {
-        const bool is_late = is_solver(kernel) && !has_solvers;
-        was_asked = was_asked || is_late;
-        return !is_late && device->is_ready(kernel);
+        asked.insert(&kernel);
+        return !late.contains(&kernel) && device->is_ready(kernel);
     }
 
     void run(const Launch& launch) override {
-        EXPECT_TRUE(has_solvers || !is_solver(launch.kernel)) << launch.kernel.path << " is not ready";
-        has_solved = has_solved || is_solver(launch.kernel);
+        EXPECT_FALSE(late.contains(&launch.kernel)) << launch.kernel.path << " is not ready";
+        if (is_solver(launch.kernel)) ran.insert(&launch.kernel);
         device->run(launch);
         launches = device->launch_count();
     }
 
+    /// Also on the CPU, which runs one group after the other.
     uint resident_groups(const Kernel& kernel) override {
-        EXPECT_TRUE(has_solvers || !is_solver(kernel)) << kernel.path << " is not ready";
-        return device->resident_groups(kernel);
+        EXPECT_FALSE(late.contains(&kernel)) << kernel.path << " is not ready";
+        const uint groups = device->resident_groups(kernel);
+        return groups == 0 && is_solver(kernel) ? 16 : groups;
     }
 
     DeviceInfo info() const override { return device->info(); }
@@ -98,6 +110,18 @@ std::vector<BodyDefinition> bodies_of(const char* scene, float restitution) {
     return bodies;
 }
 
+/// Three islands of 465 boxes, each too large to share a work group.
+std::vector<BodyDefinition> three_pyramids() {
+    std::vector<BodyDefinition> bodies;
+    for (int i = 0; i < 3; ++i) {
+        for (BodyDefinition& body : bodies_of("pyramid:base=30", 0.0f)) {
+            body.pose.position.z += 1000.0f * static_cast<float>(i);
+            bodies.push_back(body);
+        }
+    }
+    return bodies;
+}
+
 struct LateRun {
     LateRun(DeviceKind kind, const std::vector<BodyDefinition>& bodies, bool waits) {
         WorldOptions options = options_on(kind);
@@ -118,30 +142,76 @@ struct LateRun {
 class LateKernels : public OnDevice {};
 
 TEST_P(LateKernels, are_replaced_by_launches_with_the_same_bits) {
-    for (const auto& [scene, restitution] : {std::pair("pool:boxes=20", 0.0f), std::pair("pool:boxes=20", 0.4f),
-                                             std::pair("columns:side=20,height=3", 0.0f),
-                                             std::pair("pile:boxes=1100", 0.0f), std::pair("pile:boxes=1100", 0.4f)}) {
-        SCOPED_TRACE(scene);
-        const std::vector<BodyDefinition> bodies = bodies_of(scene, restitution);
-        LateRun late(GetParam(), bodies, false);
-        EngineRun whole(options_on(GetParam()), bodies);
-        for (int i = 0; i < 12; ++i) {
-            late.device->has_solvers = i >= 6;
-            // A renderer in software makes no use of them.
-            EXPECT_EQ(late.awaits_kernels(), i < 6 && late.device->loops_freely()) << i;
-            late.run->step(2);
-            whole.step(2);
-            ASSERT_TRUE(late.run->motion() == whole.motion()) << "step " << 2 * i;
+    const std::vector<std::vector<BodyDefinition>> worlds{bodies_of("pool:boxes=20", 0.0f),
+                                                          bodies_of("pool:boxes=20", 0.4f),
+                                                          bodies_of("columns:side=20,height=3", 0.0f),
+                                                          bodies_of("pile:boxes=1100", 0.0f),
+                                                          bodies_of("pile:boxes=1100", 0.4f),
+                                                          three_pyramids()};
+    std::minstd_rand random(1);
+    for (std::size_t w = 0; w < worlds.size(); ++w) {
+        SCOPED_TRACE(w);
+        LateRun late(GetParam(), worlds[w], false), whole(GetParam(), worlds[w], true);
+        late.device->late.insert(k_solvers.begin(), k_solvers.end());
+        // A renderer in software has no use for them.
+        EXPECT_EQ(late.awaits_kernels(), late.device->loops_freely());
+        for (int i = 0; i < 16; ++i) {
+            if (i == 12) late.device->late.clear();
+            for (const Kernel* solver : k_solvers)
+                if (i > 2 && i < 12 && random() % 4 == 0 && late.device->late.erase(solver) == 0)
+                    late.device->late.insert(solver);
+            if (i == 13) late.device->ran.clear(), whole.device->ran.clear();
+            late.run->step();
+            whole.run->step();
+            ASSERT_TRUE(late.run->motion() == whole.run->motion()) << "step " << i;
         }
-        EXPECT_EQ(late.device->was_asked, late.device->loops_freely());
-        EXPECT_EQ(late.device->has_solved, late.device->loops_freely());
+        EXPECT_FALSE(late.awaits_kernels());
+        EXPECT_TRUE(std::ranges::includes(late.device->ran, whole.device->ran)) << "once all are ready";
+        EXPECT_EQ(whole.device->ran.empty(), !whole.device->loops_freely());
     }
+}
+
+TEST_P(LateKernels, are_those_that_the_world_has_a_use_for) {
+    LateRun small(GetParam(), bodies_of("pool:boxes=20", 0.0f), false);
+    if (!small.device->loops_freely()) return; // it has no use for any
+    small.device->late.insert(k_solvers.begin(), k_solvers.end());
+    small.run->step();
+    EXPECT_EQ(small.device->asked, std::set<const Kernel*>{&engine::solve_islands});
+    LateRun large(GetParam(), three_pyramids(), false);
+    large.device->late.insert(k_solvers.begin(), k_solvers.end());
+    large.run->step();
+    EXPECT_EQ(large.device->asked, (std::set<const Kernel*>{&engine::solve_island_groups, &engine::solve_single_islands,
+                                                            &engine::solve_persistent}));
 }
 
 TEST_P(LateKernels, are_not_asked_for_where_the_caller_waits) {
     LateRun waiting(GetParam(), bodies_of("pool:boxes=20", 0.0f), true);
+    waiting.run->step();
     EXPECT_FALSE(waiting.awaits_kernels());
-    EXPECT_FALSE(waiting.device->was_asked);
+    EXPECT_TRUE(waiting.device->asked.empty());
+}
+
+TEST_P(LateKernels, that_are_faulty_are_told_of_once) {
+    if (GetParam() != DeviceKind::Gpu) return; // there a kernel is a function of the library
+    const fs::path folder = fs::path(testing::TempDir()) / ("talus_faulty_kernel_" + std::to_string(getpid()));
+    fs::create_directories(folder / "resolution");
+    std::ofstream(folder / "resolution/solve_islands.comp.glsl") << "void main() { faulty }\n";
+    setenv("TALUS_KERNEL_PATH", folder.c_str(), 1);
+    std::vector<std::string> warnings;
+    set_log_hook([&](LogLevel level, std::string_view message) {
+        if (level == LogLevel::Warning) warnings.emplace_back(message);
+    });
+    const std::unique_ptr<Device> device = engine::make_gl_device(GlContext::Own, false, false, false);
+    for (int i = 0; i < 1000 && warnings.empty(); ++i) {
+        EXPECT_FALSE(device->is_ready(engine::solve_islands));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_FALSE(device->is_ready(engine::solve_islands));
+    set_log_hook({});
+    unsetenv("TALUS_KERNEL_PATH");
+    fs::remove_all(folder);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("resolution/solve_islands does not"), std::string::npos) << warnings[0];
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, LateKernels, testing::Values(DeviceKind::Cpu, DeviceKind::Gpu),

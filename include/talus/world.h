@@ -96,7 +96,8 @@ class TALUS_API World {
 public:
     /// Throws Error where the device cannot be had; the message lists what was tried.
     explicit World(const Settings& settings = {}, const WorldOptions& options = {});
-    /// Waits for the steps on their way.
+    /// Waits for the steps on their way, and where compiled kernels are kept (WorldOptions::program_cache) for those
+    /// that the driver is still compiling.
     ~World();
     /// The world that was moved from is good for nothing but its destructor and being assigned to.
     World(World&&) noexcept;

@@ -111,7 +111,8 @@ public:
 
     /// Makes kernels that will be launched soon ready, side by side where the device can. Waits for none of them.
     virtual void prepare(std::span<const Kernel* const>) {}
-    /// Whether the kernel can be launched without waiting until it is ready. Where not, it is on its way.
+    /// Whether the kernel can be launched without waiting until it is ready. Where not, it is on its way, or faulty.
+    /// For kernels that a step can do without.
     virtual bool is_ready(const Kernel&) { return true; }
     virtual void run(const Launch&) = 0;
     /// How many launches it has been given, but for those without items.

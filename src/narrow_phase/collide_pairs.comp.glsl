@@ -3,8 +3,8 @@
 // which a body sleeps and nothing moves it is the last step's.
 // Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds, OldManifoldPoints,
 // OldPointImpulses; of a pair that sleeps OldPointSeparations.
-// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; PointImpulses; where they touch ManifoldPoints
-// and PointSeparations; Counters, where two bodies touch that did not in the last step, or touch no longer, by which the
+// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; PointImpulses; where they touch or sleep
+// ManifoldPoints and PointSeparations; Counters, where two bodies touch that did not in the last step, or touch no longer, by which the
 // constraint graph is another one, and where they touch at fewer or more points.
 // Needs: barriers after plan_pairs and fill_pair_table.
 // Overflow: none.

@@ -136,13 +136,14 @@ struct Manifold {
 };
 
 // 16 bytes, four a pair: what the next step matches its points with. B's anchor and the point's place follow from it and
-// from where the bodies were at the start of the step: see offset_at_meeting and point_position.
+// from where the bodies were at the start of the step: see offset_at_meeting and point_position. Of a pair that sleeps it is kept.
 struct ManifoldPoint {
     vec3 anchor; // m, from A's centre, world axes
     uint feature_id;
 };
 
-// 32 bytes, one a pair: the rest of what is known of its points. The next step reads it only of a pair that sleeps.
+// 32 bytes, one a pair: the rest of what is known of its points. The next step reads it only of a pair that sleeps. Of a pair
+// without points it is that of some earlier step.
 struct Separations {
     vec4 separation; // m of each point, negative = overlap; 0 where there is none
     vec3 shift;      // m: B is this far on, as seen from A, where the bodies meet

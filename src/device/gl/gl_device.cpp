@@ -205,9 +205,15 @@ void GlDevice::prepare(std::span<const Kernel* const> kernels) {
 }
 
 bool GlDevice::is_ready(const Kernel& kernel) {
+    if (faulty_.contains(&kernel)) return false;
     make_current();
     GlProgram& begun = begun_program(kernel);
-    if (!begun.finished() && begun.is_compiled()) begun.finish(objects_->cache);
+    try {
+        if (!begun.finished() && begun.is_compiled()) begun.finish(objects_->cache);
+    } catch (const Error& error) {
+        log(LogLevel::Warning, std::string("steps do without a kernel: ") + error.what());
+        faulty_.insert(&kernel);
+    }
     return begun.finished();
 }
 

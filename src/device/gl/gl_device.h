@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "device/device.h"
 #include "device/gl/gl_bindings.h"
@@ -37,7 +38,7 @@ public:
     void swap(BufferId, BufferId) override;
     void set_parameters(const Parameters&) override;
     void prepare(std::span<const Kernel* const>) override;
-    /// Throws Error where the kernel is faulty.
+    /// A kernel that turns out to be faulty never is, and the log says so once.
     bool is_ready(const Kernel&) override;
     void run(const Launch&) override;
     void leave() override;
@@ -89,6 +90,7 @@ private:
     std::optional<Parameters> parameters_;
     std::optional<uint> most_resident_groups_;                // what the environment says
     std::unordered_map<const Kernel*, uint> resident_groups_; // of kernels that were asked for
+    std::unordered_set<const Kernel*> faulty_;                // of those that steps can do without
     std::size_t max_block_bytes_ = 0;
     KernelTarget kernel_target_;
     bool kernels_pending_ = false; // ran since the last order_after_kernels
