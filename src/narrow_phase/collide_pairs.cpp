@@ -15,10 +15,13 @@
 namespace talus::engine {
 namespace {
 
+/// None where the pair had no manifold.
 OldPoints read_old_points(const CpuState& state, uint old_index) {
+    OldPoints old{};
+    old.axis = k_axis_none;
+    if (old_index == k_none) return old;
     const Manifold& manifold = state.old_manifolds[old_index];
     const ManifoldPoint* const points = &state.old_manifold_points[std::size_t{4} * old_index];
-    OldPoints old{};
     old.axis = manifold.axis;
     old.count = manifold.point_count;
     for (uint i = 0; i < old.count; ++i) {
@@ -83,7 +86,7 @@ void compare_with_last(CpuState& state, uint pair_index) {
 struct PairInHand {
     uint index;
     uint old_index; ///< of its last manifold; k_none: it has none
-    Carriers carriers;
+    OldPoints old;
     AxisQuery axes; ///< no_query() where one is no box
 };
 
@@ -95,7 +98,7 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
         (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
     const float max_separation = state.parameters.speculative_distance + length3(motion);
     ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b],
-                                              motion, in_hand.carriers, in_hand.axes, max_separation);
+                                              motion, carriers_of(in_hand.old), in_hand.axes, max_separation);
     const bool sensed = is_sensed(state.shapes[pair.body_a], state.shapes[pair.body_b]);
     if (sensed && !can_meet(state.shapes[pair.body_a], state.shapes[pair.body_b])) g.count = 0;
 
@@ -103,7 +106,7 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
     vec4 impulses(0.0f);
     if (in_hand.old_index != k_none) {
         manifold = carry_over(manifold, state.old_manifolds[in_hand.old_index], state.parameters);
-        impulses = carry_impulses(g, read_old_points(state, in_hand.old_index));
+        impulses = carry_impulses(g, in_hand.old);
     } else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b])) {
         manifold = begin_trial(manifold, state.parameters);
     }
@@ -134,9 +137,7 @@ uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::a
         if (state.parameters.rest_steps > 0 && sleeps(state, pair))
             keep_manifold(state, index, old_index);
         else
-            in_hand[count++] = {index, old_index,
-                                old_index != k_none ? carriers_of(read_old_points(state, old_index)) : no_carriers(),
-                                no_query()};
+            in_hand[count++] = {index, old_index, read_old_points(state, old_index), no_query()};
     }
     return count;
 }
@@ -150,7 +151,7 @@ void query_axes_of(const CpuState& state, std::span<PairInHand> in_hand) {
     uint count = 0;
     for (const PairInHand& each : in_hand) {
         const Pair& pair = state.pairs[each.index];
-        if (is_asked(pair)) questions[count++] = {pair.body_a, pair.body_b, each.carriers.axis};
+        if (is_asked(pair)) questions[count++] = {pair.body_a, pair.body_b, each.old.axis};
     }
     query_axes(state, questions.data(), count, answers.data());
     count = 0;

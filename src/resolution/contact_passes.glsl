@@ -162,10 +162,13 @@ ManifoldState pass_over_hit(uint index, float old_share)
 void put_velocity(uint index, uint tick, uint body, uint slot, uint its_traits, float part, BodyVelocity before,
                   BodyVelocity after)
 {
-    if (k_multirate_islands) after = change_in_part(before, after, part);
-    bool is_hub = k_hubs && (its_traits & k_trait_hub) != 0u;
-    if (after.inverse_mass != 0.0 && is_hub) put_change(index, change_of_hub(body, before, after, hub_share, tick));
-    if (after.inverse_mass != 0.0 && !is_hub) store_velocity(slot, after);
+    if (after.inverse_mass != 0.0) {
+        if (k_multirate_islands) after = change_in_part(before, after, part);
+        if (k_hubs && (its_traits & k_trait_hub) != 0u)
+            put_change(index, change_of_hub(body, before, after, hub_share, tick));
+        else
+            store_velocity(slot, after);
+    }
 }
 
 // After the relax pass no sub-step follows that could have a part.
