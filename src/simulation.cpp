@@ -420,12 +420,13 @@ StepPlan Simulation::plan_step(const Population& population) const {
 
 void Simulation::prepare_kernels(const Population& population) {
     if (kernels_prepared || !gpu) return;
-    StepPlan quickest = plan_in_launches(population, IslandSolve::Groups);
-    // How many groups it will have is found by a trial of the kernel itself.
-    if (quickest.may_be_persistent() && gpu->loops_freely()) quickest.persistent_groups = 1;
-    // What a large world may need at any time.
-    quickest.singles = quickest.has_groups();
-    StepPlan first = waits_for_kernels ? quickest : plan_in_launches(population, IslandSolve::Launches);
+    // What a step can do without is begun when it is asked whether that is ready.
+    StepPlan first = plan_in_launches(population, waits_for_kernels ? IslandSolve::Groups : IslandSolve::Launches);
+    if (waits_for_kernels) {
+        // How many groups it will have is found by a trial of the kernel itself.
+        if (first.may_be_persistent() && gpu->loops_freely()) first.persistent_groups = 1;
+        first.singles = first.has_groups(); // what a large world may need at any time
+    }
     KernelList list(*gpu);
     const auto note = [&](Stage stage, const StepPlan& by) {
         if (&placement.of(stage) == gpu.get()) run_stage(list, stage, by);
@@ -438,7 +439,6 @@ void Simulation::prepare_kernels(const Population& population) {
     first.search = Search::None;
     note(Stage::BroadPhase, first);
     if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
-    note(Stage::Solve, quickest);
     gpu->prepare(list.kernels);
     kernels_prepared = true;
 }

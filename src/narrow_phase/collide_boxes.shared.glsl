@@ -23,7 +23,7 @@ inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit,
     Polygon result = polygon_beside(polygon);
     for (uint i = 0u; i < polygon.count; i += 1u) {
         vec3 from = corner_of(polygon, i);
-        vec3 to = corner_of(polygon, i + 1u < polygon.count ? i + 1u : 0u);
+        vec3 to = corner_of(polygon, choose(i + 1u < polygon.count, i + 1u, 0u));
         precise float distance_from = sign * component(from, axis) - limit;
         precise float distance_to = sign * component(to, axis) - limit;
         bool inside_from = distance_from <= 0.0f;
@@ -33,7 +33,7 @@ inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit,
             precise float t = distance_from * reciprocal(distance_from - distance_to);
             precise vec3 crossing = from + (to - from) * t;
             // On the way out the next edge runs along the plane; on the way in it is the rest of this edge.
-            add_corner(result, crossing, inside_from ? label : label_of(polygon, i));
+            add_corner(result, crossing, choose(inside_from, label, label_of(polygon, i)));
         }
     }
     return result;
@@ -47,9 +47,9 @@ inline Polygon incident_face(Axes r, vec3 half_extents, vec3 centre)
     if (abs(r.y.z) > abs(r.x.z)) axis = 1u;
     if (abs(r.z.z) > max(abs(r.x.z), abs(r.y.z))) axis = 2u;
     vec3 face_normal = axis_of(r, axis);
-    float side = face_normal.z > 0.0f ? -1.0f : 1.0f;
-    uint axis_u = axis == 2u ? 0u : axis + 1u;
-    uint axis_v = axis_u == 2u ? 0u : axis_u + 1u;
+    float side = choose(face_normal.z > 0.0f, -1.0f, 1.0f);
+    uint axis_u = choose(axis == 2u, 0u, axis + 1u);
+    uint axis_v = choose(axis_u == 2u, 0u, axis_u + 1u);
     precise vec3 middle = centre + face_normal * (side * component(half_extents, axis));
     precise vec3 u = axis_of(r, axis_u) * component(half_extents, axis_u);
     precise vec3 v = axis_of(r, axis_v) * component(half_extents, axis_v);
@@ -58,7 +58,7 @@ inline Polygon incident_face(Axes r, vec3 half_extents, vec3 centre)
     precise vec3 p2 = middle - u - v;
     precise vec3 p3 = middle + u - v;
     // The face is part of the label, so that a point on another face is another feature.
-    uint label = 8u * (2u * axis + (side > 0.0f ? 1u : 0u));
+    uint label = 8u * (2u * axis + choose(side > 0.0f, 1u, 0u));
     Polygon polygon = empty_polygon();
     add_corner(polygon, p0, label);
     add_corner(polygon, p1, label + 1u);
@@ -98,11 +98,10 @@ inline Pick no_pick(uint point)
 
 inline Pick better_pick(Pick best, uint point, uint worth, float gain)
 {
-    if (gain > 0.0f && (worth > best.worth || (worth == best.worth && gain > best.gain))) {
-        best.point = point;
-        best.worth = worth;
-        best.gain = gain;
-    }
+    bool better = gain > 0.0f && (worth > best.worth || (worth == best.worth && gain > best.gain));
+    best.point = choose(better, point, best.point);
+    best.worth = choose(better, worth, best.worth);
+    best.gain = choose(better, gain, best.gain);
     return best;
 }
 
@@ -114,7 +113,7 @@ inline uint feature_between(uint label_before, uint label)
 
 inline uint feature_of(Polygon polygon, uint i)
 {
-    return feature_between(label_of(polygon, i > 0u ? i - 1u : polygon.count - 1u), label_of(polygon, i));
+    return feature_between(label_of(polygon, choose(i > 0u, i - 1u, polygon.count - 1u)), label_of(polygon, i));
 }
 
 // Which four points to keep of more (algorithm 8): the deepest, the farthest from it, the one that makes the largest
@@ -144,7 +143,7 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
     uint before = label_of(polygon, polygon.count - 1u);
     for (uint i = 0u; i < polygon.count; i += 1u) {
         uint label = label_of(polygon, i);
-        uint worth = corner_of(polygon, i).z <= near ? k_worth_near : k_worth_far;
+        uint worth = choose(corner_of(polygon, i).z <= near, k_worth_near, k_worth_far);
         if (carried_load(carriers, feature_between(before, label))) worth = k_worth_carrying;
         worths |= worth << (2u * i);
         before = label;
@@ -171,7 +170,7 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
         third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), area);
     }
     vec3 c = corner_of(polygon, third.point);
-    float turn = triangle_area(a, b, c) < 0.0f ? -1.0f : 1.0f;
+    float turn = choose(triangle_area(a, b, c) < 0.0f, -1.0f, 1.0f);
     Pick fourth = no_pick(first.point);
     for (uint i = 0u; i < polygon.count; i += 1u) {
         vec3 p = corner_of(polygon, i);
@@ -203,10 +202,10 @@ inline ContactGeometry keep_corner(ContactGeometry g, uint i, Polygon polygon, u
 // The reference box is A; `axis` is its face's axis. `carriers`: of this axis.
 inline ContactGeometry face_contact(BoxPair p, uint axis, Carriers carriers, float max_separation)
 {
-    uint axis_u = axis == 2u ? 0u : axis + 1u;
-    uint axis_v = axis_u == 2u ? 0u : axis_u + 1u;
+    uint axis_u = choose(axis == 2u, 0u, axis + 1u);
+    uint axis_v = choose(axis_u == 2u, 0u, axis_u + 1u);
     vec3 n = axis_of(p.a, axis);
-    float side = dot3(n, p.offset) < 0.0f ? -1.0f : 1.0f;
+    float side = choose(dot3(n, p.offset) < 0.0f, -1.0f, 1.0f);
     Axes frame; // of the reference face: u, v and the outward normal
     frame.x = axis_of(p.a, axis_u);
     frame.y = axis_of(p.a, axis_v);
@@ -266,7 +265,7 @@ inline uint axis_of_contact(BoxPair p, AxisQuery query, uint old_axis)
     if (axis >= 6u && !(query.separation > k_near)) {
         vec3 across = cross3(axis_of(p.a, (axis - 6u) / 3u), axis_of(p.b, (axis - 6u) % 3u));
         for (uint face = 0u; face < 6u; face += 1u) {
-            vec3 normal = face < 3u ? axis_of(p.a, face) : axis_of(p.b, face - 3u);
+            vec3 normal = choose(face < 3u, axis_of(p.a, face), axis_of(p.b, face - 3u));
             if ((axis >= 6u || face == old_axis) && is_almost_normal(across, normal)) axis = face;
         }
     }
@@ -280,7 +279,7 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
     vec3 direction_b = axis_of(p.b, edge_b);
     vec3 across = cross3(direction_a, direction_b);
     float inverse_length = inverse_sqrt(dot3(across, across));
-    precise float scale = dot3(across, p.offset) < 0.0f ? -inverse_length : inverse_length;
+    precise float scale = choose(dot3(across, p.offset) < 0.0f, -inverse_length, inverse_length);
     vec3 normal = scale3(across, scale); // from A to B
 
     // A point on each edge: its middle, at the corner of the box that looks along the normal.
@@ -292,15 +291,15 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
             vec3 axis = axis_of(p.a, i);
             bool positive = dot3(axis, normal) > 0.0f;
             float reach = component(p.half_a, i);
-            point_a = add_scaled(point_a, axis, positive ? reach : -reach);
-            corner = corner * 2u + (positive ? 1u : 0u);
+            point_a = add_scaled(point_a, axis, choose(positive, reach, -reach));
+            corner = corner * 2u + choose(positive, 1u, 0u);
         }
         if (i != edge_b) {
             vec3 axis = axis_of(p.b, i);
             bool positive = dot3(axis, normal) < 0.0f;
             float reach = component(p.half_b, i);
-            point_b = add_scaled(point_b, axis, positive ? reach : -reach);
-            corner = corner * 2u + (positive ? 1u : 0u);
+            point_b = add_scaled(point_b, axis, choose(positive, reach, -reach));
+            corner = corner * 2u + choose(positive, 1u, 0u);
         }
     }
     // Minimise |point_a + s a - point_b - t b|: with unit directions and c = a·b, s = (a·d - c b·d) / (1 - c^2).
@@ -334,7 +333,7 @@ inline ContactGeometry contact_at_face(BoxPair p, uint axis, Carriers carriers, 
         q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
     }
     if (carriers.axis != axis) carriers = no_carriers();
-    ContactGeometry g = face_contact(q, b_is_reference ? axis - 3u : axis, carriers, max_separation);
+    ContactGeometry g = face_contact(q, choose(b_is_reference, axis - 3u, axis), carriers, max_separation);
     if (b_is_reference) g = swap_bodies(g, q.offset);
     g.axis = axis;
     return g;

@@ -96,7 +96,7 @@ struct OldPoints {
 
 inline uint carrying_feature(OldPoints old, uint i)
 {
-    return i < old.count && old.impulses[i] > 0.0f ? old.features[i] : k_none;
+    return choose(i < old.count && old.impulses[i] > 0.0f, old.features[i], k_none);
 }
 
 inline Carriers carriers_of(OldPoints old)
@@ -117,10 +117,10 @@ struct PointMatch {
 // The first of the old points that are free, a bit each, with this name; k_none: there is none.
 inline uint find_namesake(OldPoints old, uint free, uint feature)
 {
-    uint named = (old.features[0] == feature ? 1u : 0u) | (old.features[1] == feature ? 2u : 0u) |
-                 (old.features[2] == feature ? 4u : 0u) | (old.features[3] == feature ? 8u : 0u);
+    uint named = choose(old.features[0] == feature, 1u, 0u) | choose(old.features[1] == feature, 2u, 0u) |
+                 choose(old.features[2] == feature, 4u, 0u) | choose(old.features[3] == feature, 8u, 0u);
     named &= free;
-    return named == 0u ? k_none : uint(findLSB(named));
+    return choose(named == 0u, k_none, uint(findLSB(named)));
 }
 
 struct Nearest {
@@ -151,7 +151,7 @@ inline uint find_nearest(OldPoints old, uint free, vec3 point)
     return best.index;
 }
 
-inline uint without(uint free, uint index) { return index == k_none ? free : free & ~(1u << index); }
+inline uint without(uint free, uint index) { return choose(index == k_none, free, free & ~(1u << index)); }
 
 // Feature ids say the same only on the same separating axis.
 inline PointMatch match_points(ContactGeometry g, OldPoints old)
@@ -181,8 +181,8 @@ inline PointMatch match_points(ContactGeometry g, OldPoints old)
 
 inline float impulse_of(OldPoints old, uint i)
 {
-    return i < 2u ? (i == 0u ? old.impulses[0] : old.impulses[1])
-                  : (i == 2u ? old.impulses[2] : (i == 3u ? old.impulses[3] : 0.0f));
+    return choose(i == 0u, old.impulses[0], choose(i == 1u, old.impulses[1],
+                  choose(i == 2u, old.impulses[2], choose(i == 3u, old.impulses[3], 0.0f))));
 }
 
 // What each new point starts from.
@@ -207,8 +207,8 @@ inline Separations make_separations(ContactGeometry g)
 {
     Separations separations;
     separations.separation =
-        vec4(0u < g.count ? g.separations[0] : 0.0f, 1u < g.count ? g.separations[1] : 0.0f,
-             2u < g.count ? g.separations[2] : 0.0f, 3u < g.count ? g.separations[3] : 0.0f);
+        vec4(choose(0u < g.count, g.separations[0], 0.0f), choose(1u < g.count, g.separations[1], 0.0f),
+             choose(2u < g.count, g.separations[2], 0.0f), choose(3u < g.count, g.separations[3], 0.0f));
     separations.shift = g.shift;
     separations.reserved = 0.0f;
     return separations;
@@ -266,7 +266,7 @@ inline Manifold no_manifold(Pair pair)
 // tangents of two normals that are nearly the same may lie far apart.
 inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)
 {
-    manifold.colour = old.colour == k_inactive_colour ? k_no_colour : old.colour; // it was a sensor's
+    manifold.colour = choose(old.colour == k_inactive_colour, k_no_colour, old.colour); // it was a sensor's
     Axes frame = contact_frame(manifold.normal);
     Axes old_frame = contact_frame(old.normal);
     precise vec3 sideways = old_frame.x * old.tangent_impulse_1 + old_frame.y * old.tangent_impulse_2;

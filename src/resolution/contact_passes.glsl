@@ -46,9 +46,11 @@ vec4 base_separation;
 ManifoldRows rows;
 ManifoldImpulses impulses;
 
-void take_constraint(uint index)
+// `of_hub`: perhaps. The compiler is to know where not, as what hubs need takes time where there are none, too.
+void take_constraint(uint index, bool of_hub)
 {
     ContactConstraint c = unpack_ContactConstraint(constraints, index);
+    if (!of_hub) c.traits &= ~(k_trait_hub | (k_trait_hub << k_traits_of_b));
     BodyInertia inertia_a = unpack(inertias[c.body_a]);
     BodyInertia inertia_b = unpack(inertias[c.body_b]);
     body_a = c.body_a;
@@ -87,10 +89,10 @@ PassTarget target_of_pass(uint pass)
     Substep substep = make_substep(substeps, is_against_static(traits), present_load_speed, parameters);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
-    target.old_share = pass == k_solve ? 0.0 : 1.0;
+    target.old_share = choose(pass == k_solve, 0.0, 1.0);
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     bool moves = is_against_static(traits) && pass != k_relax;
-    float half_h = moves ? 0.5 * substep_length(substeps, parameters) : 0.0;
+    float half_h = choose(moves, 0.5 * substep_length(substeps, parameters), 0.0);
     target.touch = touch_of_pass(slip, rows.meeting, impulses, half_h, pass == k_relax);
     slip_of_target = slip.apart;
     target.normal = make_normal_target(current_separations(rows, base_separation, traits, delta_a, delta_b), rows,
@@ -174,8 +176,8 @@ void put_velocity(uint index, uint tick, uint body, uint slot, uint its_traits, 
 // After the relax pass no sub-step follows that could have a part.
 void put_velocities(uint index, uint pass, uint tick, VelocityPair before, VelocityPair after)
 {
-    put_velocity(index, tick, body_a, slot_a, traits, pass == k_relax ? 1.0 : part_a, before.a, after.a);
-    put_velocity(index, tick, body_b, slot_b, traits >> k_traits_of_b, pass == k_relax ? 1.0 : part_b, before.b, after.b);
+    put_velocity(index, tick, body_a, slot_a, traits, choose(pass == k_relax, 1.0, part_a), before.a, after.a);
+    put_velocity(index, tick, body_b, slot_b, traits >> k_traits_of_b, choose(pass == k_relax, 1.0, part_b), before.b, after.b);
 }
 
 // What a pass over the constraint in hand, whose index it is, makes of its bodies' velocities.

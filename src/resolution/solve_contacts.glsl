@@ -55,7 +55,7 @@ void main()
     for (; index < end; ++index) {
         uint substep = substep_at(args.z, cell_in_block(constraints, index, 4u).w); // its traits
         if (substep >= substeps_of_contact(cell_in_block(constraints, index, 0u).w)) continue;
-        take_constraint(index);
+        take_constraint(index, k_hubs);
         PassTarget target;
         if (args.y != k_warm_start) target = target_of_pass(args.y);
         pass_over_constraint(args.y, args.z, index, target);

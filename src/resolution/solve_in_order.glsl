@@ -308,7 +308,7 @@ void pass_over_hubs_and_overflow(uint place, uint pass, uint tick)
         for (; place < end_of_places(colour); place += workers()) {
             uint index = own_manifold_at(place);
             if (index != k_none && has_substep(index, tick)) {
-                take_in_hand(index);
+                take_in_hand(index, true);
                 PassTarget target;
                 if (pass == k_warm_start)
                     note_whether_unlike();
@@ -342,7 +342,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
         FastContact fast = FastContact(k_none, 0u);
         if (!all) fast = fast_contacts[listed];
         if (index != k_none && (all ? has_substep(index, tick) : has_substep(fast, tick))) {
-            take_in_hand(index);
+            take_in_hand(index, false);
             if (!is_ready) {
                 if (pass == k_warm_start)
                     note_whether_unlike();
@@ -365,7 +365,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
         }
     }
     if (all ? place < end : listed != k_none) give_up(); // a driver has ended the loop
-    take_in_hand(first);
+    take_in_hand(first, false);
     bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
     bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;
     is_settled = !(are_all && ends_tick && move_by_themselves);

@@ -119,7 +119,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
             uint index = !is_end ? own_manifold_at(place) : end == end_place ? first : k_none;
             // To ask others than the one in hand is a load. Those of one island have the same number of sub-steps.
             if (index != k_none && (k_one_island || has_substep(index, tick))) {
-                take_in_hand(index);
+                take_in_hand(index, false);
                 if (!is_end && has_substep(index, tick)) {
                     if (first == k_none) first = index;
                     PassTarget target;

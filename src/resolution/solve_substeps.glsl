@@ -76,11 +76,12 @@ void find_own_manifolds()
     deal_manifolds();
 }
 
-void take_in_hand(uint index)
+// `of_hub`: see take_constraint.
+void take_in_hand(uint index, bool of_hub)
 {
     if (index != index_in_hand && index != k_none) {
         if (index_in_hand != k_none) put_back_impulses(index_in_hand);
-        take_constraint(index);
+        take_constraint(index, of_hub);
         index_in_hand = index;
     }
 }

@@ -3,6 +3,12 @@
 // everywhere: hardware rounds a / b and sqrt each in its own way, and compilers reorder dot and length. So these are
 // written out here, and every computed value is `precise`. docs/conventions.md gives the rules.
 
+// y, with its sign turned over where x has a minus; bit by bit, as to compare and to choose takes longer.
+inline float turned_as(float x, float y)
+{
+    return uintBitsToFloat(floatBitsToUint(y) ^ (floatBitsToUint(x) & 0x80000000u));
+}
+
 // 1 / x to within 2 units in the last place, for normal x. Newton's method on f(y) = 1/y - x; the first guess flips the
 // exponent and is good to 12 %, and each round squares the error.
 inline float reciprocal(float x)
@@ -13,7 +19,7 @@ inline float reciprocal(float x)
     y = y * (2.0f - size * y);
     y = y * (2.0f - size * y);
     y = y * (2.0f - size * y);
-    return choose(x < 0.0f, -y, y);
+    return turned_as(x, y);
 }
 
 // 1 / sqrt(x) to within 2 units in the last place, for x from 2^-125 on; finite at 0. Newton's method on f(y) = 1/y^2 - x
@@ -96,7 +102,7 @@ inline vec3 multiply3(vec3 a, vec3 b)
 
 inline float length3(vec3 v) { return square_root(dot3(v, v)); }
 
-inline float component(vec3 v, uint axis) { return axis == 0u ? v.x : (axis == 1u ? v.y : v.z); }
+inline float component(vec3 v, uint axis) { return choose(axis == 0u, v.x, choose(axis == 1u, v.y, v.z)); }
 
 // ---- rotations: unit quaternions (x, y, z, w) ----
 
@@ -156,7 +162,7 @@ inline Axes rotation_axes(vec4 q)
     return axes;
 }
 
-inline vec3 axis_of(Axes axes, uint i) { return i == 0u ? axes.x : (i == 1u ? axes.y : axes.z); }
+inline vec3 axis_of(Axes axes, uint i) { return choose(i == 0u, axes.x, choose(i == 1u, axes.y, axes.z)); }
 
 // From the frame of `axes` to the world.
 inline vec3 to_world(Axes axes, vec3 v)
