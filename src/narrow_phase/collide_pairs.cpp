@@ -5,7 +5,6 @@
 #include <atomic>
 #include <span>
 
-#include "broad_phase/box_now.h"
 #include "device/cpu/cpu_state.h"
 #include "narrow_phase/lane_queries.h"
 #include "narrow_phase/narrow_phase.h"
@@ -55,11 +54,6 @@ void keep_manifold(CpuState& state, uint pair_index, uint old_index) {
     state.point_impulses[pair_index] = state.old_point_impulses[old_index];
     std::copy_n(&state.old_manifold_points[std::size_t{4} * old_index], state.old_manifolds[old_index].point_count,
                 &state.manifold_points[std::size_t{4} * pair_index]);
-}
-
-/// The search sees boxes with a skin.
-bool is_near(const CpuState& state, const Pair& pair) {
-    return is_candidate(compute_aabb(box_now(state, pair.body_a)), compute_aabb(box_now(state, pair.body_b)));
 }
 
 /// Pairs that have been added come behind those of the last step.
@@ -122,14 +116,15 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
         state.manifold_points[std::size_t{4} * in_hand.index + i] = make_point(g.points[i], g.features[i]);
 }
 
-constexpr uint k_part = 32; // pairs that a thread treats together
+constexpr uint k_part = 32; // pairs that a thread treats together, and bits of a word
 
 /// The pairs of a part that have to be collided; the others' manifolds are written.
 uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::array<PairInHand, k_part>& in_hand) {
     uint count = 0;
+    const uint near = find_near(state, &state.pairs[first], end - first); // the search saw boxes with a skin
     for (uint index = first; index < end; ++index) {
         const Pair pair = state.pairs[index];
-        if (!is_near(state, pair)) {
+        if ((near >> (index - first) & 1u) == 0) {
             put_none(state, index);
             continue;
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The separating axis of several pairs of boxes side by side: a pair in each lane of the CPU's vector registers. With
-// the same bits as query_axes() of one pair.
+// What is asked of several pairs side by side: a pair in each lane of the CPU's vector registers. With the same bits as
+// the formulas for one pair.
 #pragma once
 
 #include "device/cpu/cpu_state.h"
@@ -17,9 +17,14 @@ struct AxisQuestion {
 
 struct LaneQueries {
     uint lanes; ///< pairs side by side
+    /// A bit for each of as many pairs as there are lanes: whether their bounding boxes overlap as the bodies are now.
+    uint (*find_near)(const CpuState&, const Pair*);
     /// Answers as many questions as there are lanes.
     void (*query_axes)(const CpuState&, const AxisQuestion*, AxisQuery*);
 };
+
+/// A bit for each of at most 32 pairs, with the widest registers that this machine has.
+uint find_near(const CpuState&, const Pair*, uint count);
 
 /// Answers one question after the other, with the widest registers that this machine has.
 void query_axes(const CpuState&, const AxisQuestion*, uint count, AxisQuery*);

@@ -17,6 +17,23 @@ TALUS_LANE BodyShape shapes_at(const CpuState& state, const std::uint32_t* bodie
     return {three_of(shape), floatBitsToUint(shape.w)};
 }
 
+TALUS_LANE Aabb aabbs_now(const CpuState& state, const std::uint32_t* bodies) {
+    const auto linear = gather(state.velocities.data, bodies, 0);
+    BodyVelocity velocity; // what a box asks for
+    velocity.linear = three_of(linear);
+    return compute_aabb(
+        make_oriented_box(poses_at(state, bodies), velocity, shapes_at(state, bodies), state.parameters));
+}
+
+inline std::uint32_t find_near(const CpuState& state, const engine::Pair* pairs) {
+    std::uint32_t body_a[k_lanes], body_b[k_lanes];
+    for (int lane = 0; lane < k_lanes; ++lane) {
+        body_a[lane] = pairs[lane].body_a;
+        body_b[lane] = pairs[lane].body_b;
+    }
+    return bits_of(is_candidate(aabbs_now(state, body_a), aabbs_now(state, body_b)));
+}
+
 inline void query_axes(const CpuState& state, const AxisQuestion* questions, engine::AxisQuery* answers) {
     std::uint32_t body_a[k_lanes], body_b[k_lanes];
     UintVector old_axes{};

@@ -8,10 +8,14 @@ namespace talus::engine {
 
 constexpr uint k_polygon_corners = 8;
 
-/// A corner: where it is, and the label of the edge that begins there.
+/// Where it is, and the label of the edge that begins there.
+struct alignas(16) Corner {
+    vec3 place;
+    uint label;
+};
+
 struct Polygon {
-    vec3 corners[k_polygon_corners];
-    uint labels[k_polygon_corners];
+    Corner corners[k_polygon_corners];
     uint count; ///< corners, at most k_polygon_corners
 };
 
@@ -26,19 +30,17 @@ inline Polygon polygon_beside(const Polygon&) {
 }
 
 inline vec3 corner_of(const Polygon& polygon, uint i) {
-    return polygon.corners[i];
+    return polygon.corners[i].place;
 }
 
 inline uint label_of(const Polygon& polygon, uint i) {
-    return polygon.labels[i];
+    return polygon.corners[i].label;
 }
 
 /// What does not fit is left out: rounding may ask for a ninth.
 inline void add_corner(Polygon& polygon, vec3 corner, uint label) {
     if (polygon.count == k_polygon_corners) return;
-    polygon.corners[polygon.count] = corner;
-    polygon.labels[polygon.count] = label;
-    ++polygon.count;
+    polygon.corners[polygon.count++] = {corner, label};
 }
 
 } // namespace talus::engine

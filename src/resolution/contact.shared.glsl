@@ -191,7 +191,7 @@ inline vec2 point_target(float separation, float normal_mass, float impulse, boo
     Softness soft = substep.soft;
     float gap = closing_speed(separation, substep.inv_h);
     precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -substep.push_speed);
-    float bias = choose(separation > 0.0f, gap, choose(use_bias, push, 0.0f));
+    precise float bias = gap + choose(use_bias, push, 0.0f); // one of the two is 0
     precise float mass = normal_mass * choose(biased, soft.mass_scale, 1.0f);
     precise float offset = (impulse - choose(biased, soft.impulse_scale, 0.0f) * impulse) - mass * bias;
     return vec2(mass, offset);
@@ -228,10 +228,13 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
     target.lower = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     target.let_go = substep.let_go;
     target.push_speed = substep.push_speed;
-    target.hit_speed = vec4(hit_speed(separation.x, rows.normal_mass.x, rows.restitution, inv_h, p),
-                            hit_speed(separation.y, rows.normal_mass.y, rows.restitution, inv_h, p),
-                            hit_speed(separation.z, rows.normal_mass.z, rows.restitution, inv_h, p),
-                            hit_speed(separation.w, rows.normal_mass.w, rows.restitution, inv_h, p));
+    target.hit_speed = vec4(k_never, k_never, k_never, k_never);
+    if (any_lane(rows.restitution > 0.0f)) {
+        target.hit_speed = vec4(hit_speed(separation.x, rows.normal_mass.x, rows.restitution, inv_h, p),
+                                hit_speed(separation.y, rows.normal_mass.y, rows.restitution, inv_h, p),
+                                hit_speed(separation.z, rows.normal_mass.z, rows.restitution, inv_h, p),
+                                hit_speed(separation.w, rows.normal_mass.w, rows.restitution, inv_h, p));
+    }
     return target;
 }
 
@@ -461,7 +464,9 @@ inline ManifoldState solve_manifold(ManifoldState s, ManifoldRows rows, PassTarg
     NormalSweep sweep;
     sweep.velocity = normal_velocities(after_friction(velocity, rows, friction_change), rows);
     sweep.impulse = old.normal;
-    s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.normal.hit_speed, sum4(sweep.impulse));
+    s.is_hit = false;
+    if (any_lane(rows.restitution > 0.0f))
+        s.is_hit = is_any_hit(sweep.velocity, rows.normal_mass, target.normal.hit_speed, sum4(sweep.impulse));
     vec4 normal = solve_normals(sweep, rows, let_go_of_thrown(target.normal, sweep)).impulse;
     precise vec4 normal_change = normal - old.normal;
     precise vec4 total = old.total + (normal - old.normal * target.old_share);

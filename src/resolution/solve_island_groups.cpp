@@ -12,6 +12,7 @@ void solve_groups(CpuState& state, const std::function<IslandPlaces(uint group)>
     const auto first_of = [&](uint group) {
         return static_cast<uint>(std::lower_bound(keys, end, manifold_key(group, 0)) - keys);
     };
+    island_memory(state);
     state.parallel(
         group_count,
         [&](uint i) {

@@ -41,13 +41,39 @@ void IslandWork::add_constraint(const CpuState& state, uint constraint) {
     colours[colour_of_key(state.manifold_keys[constraint])].push_back(constraint);
 }
 
+std::unique_ptr<SolverBatches> IslandMemory::take() {
+    const std::lock_guard lock(mutex_);
+    if (unused_.empty()) return std::make_unique<SolverBatches>();
+    std::unique_ptr<SolverBatches> taken = std::move(unused_.back());
+    unused_.pop_back();
+    return taken;
+}
+
+void IslandMemory::give_back(std::unique_ptr<SolverBatches> batches) {
+    const std::lock_guard lock(mutex_);
+    unused_.push_back(std::move(batches));
+}
+
+std::size_t IslandMemory::memory_bytes() const {
+    std::size_t bytes = 0;
+    for (const std::unique_ptr<SolverBatches>& each : unused_)
+        bytes += engine::memory_bytes(*each);
+    return bytes;
+}
+
+IslandMemory& island_memory(CpuState& state) {
+    if (state.island_memory == nullptr) state.island_memory = std::make_shared<IslandMemory>();
+    return *state.island_memory;
+}
+
 void solve_together(CpuState& state, const IslandWork& islands) {
     const Parameters& p = state.parameters;
-    BodyBatches bodies;
+    std::unique_ptr<SolverBatches> batches = state.island_memory->take();
+    BodyBatches& bodies = batches->bodies;
+    std::array<ConstraintBatches, k_overflow_colour>& colours = batches->of_colours;
     bodies.assign(islands.bodies);
     for (uint batch = 0; batch < bodies.count(); ++batch)
         bodies.take(state, batch);
-    std::array<ConstraintBatches, k_overflow_colour> colours;
     for (uint colour = 0; colour < k_overflow_colour; ++colour) {
         colours[colour].assign(islands.colours[colour]);
         for (uint batch = 0; batch < colours[colour].count(); ++batch)
@@ -70,9 +96,11 @@ void solve_together(CpuState& state, const IslandWork& islands) {
                 bodies.integrate(state, tick, batch);
         },
         over_contacts);
+    state.island_memory->give_back(std::move(batches));
 }
 
 void solve_islands_on_cpu(CpuState& state, const Launch&) {
+    island_memory(state);
     const std::vector<IslandWork> parts = collect_islands(state);
     state.parallel(
         static_cast<uint>(parts.size()), [&](uint i) { solve_together(state, parts[i]); }, 1);

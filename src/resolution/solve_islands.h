@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "device/cpu/cpu_state.h"
+#include "resolution/solve_contacts.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -21,7 +24,21 @@ struct IslandWork {
     void add_constraint(const CpuState&, uint constraint);
 };
 
-/// All sub-steps. Islands may have different numbers of them.
+/// The batches of islands that are solved at a time, kept from step to step: memory that is new is slow.
+class IslandMemory {
+public:
+    std::unique_ptr<SolverBatches> take();
+    void give_back(std::unique_ptr<SolverBatches>);
+    std::size_t memory_bytes() const;
+
+private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<SolverBatches>> unused_;
+};
+
+IslandMemory& island_memory(CpuState&);
+
+/// All sub-steps. Islands may have different numbers of them. Needs island_memory(state).
 void solve_together(CpuState& state, const IslandWork&);
 
 /// Where the bodies of a group stand in the order of islands, and what IslandGroups says of them; by default there are

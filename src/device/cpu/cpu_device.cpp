@@ -10,7 +10,7 @@
 #include "broad_phase/lane_sweep.h"
 #include "device/cpu/cpu_state.h"
 #include "device/cpu/flush_denormals.h"
-#include "resolution/solve_contacts.h"
+#include "resolution/solve_islands.h"
 
 namespace talus::engine {
 namespace {
@@ -96,6 +96,7 @@ public:
             sum += storage.size();
         if (state.sweep_memory != nullptr) sum += state.sweep_memory->memory_bytes();
         if (state.solver_batches != nullptr) sum += engine::memory_bytes(*state.solver_batches);
+        if (state.island_memory != nullptr) sum += state.island_memory->memory_bytes();
         return sum;
     }
 

@@ -43,6 +43,7 @@ struct CpuState {
     // What twins keep from launch to launch:
     std::shared_ptr<class SweepMemory> sweep_memory;      ///< sweep_pairs
     std::shared_ptr<struct SolverBatches> solver_batches; ///< integrate_bodies, solve_contacts
+    std::shared_ptr<class IslandMemory> island_memory;    ///< those that solve islands
 };
 
 } // namespace talus::engine

@@ -39,8 +39,8 @@ public:
     void swap(BufferId, BufferId) override;
     void set_parameters(const Parameters&) override;
     void prepare(std::span<const Kernel* const>) override;
-    /// A kernel that turns out to be faulty never is, and the log says so once. One that has to be compiled is begun when those
-    /// that were prepared are compiled: side by side each takes longer.
+    /// A kernel that turns out to be faulty never is, and the log says so once. One that has to be compiled is begun
+    /// when those that were prepared are compiled: side by side each takes longer.
     bool is_ready(const Kernel&) override;
     void run(const Launch&) override;
     void leave() override;

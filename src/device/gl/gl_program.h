@@ -31,7 +31,8 @@ void compile_side_by_side();
 
 class GlProgram {
 public:
-    /// Takes the program from the cache, or reads its source (kernel_source). Throws Error where a file of it is missing.
+    /// Takes the program from the cache, or reads its source (kernel_source). Throws Error where a file of it is
+    /// missing.
     GlProgram(const std::string& path, const KernelTarget&, const ProgramCache&);
     ~GlProgram();
     GlProgram(const GlProgram&) = delete;
@@ -42,9 +43,9 @@ public:
     bool is_begun() const noexcept { return name_ != 0; }
     /// Whether to finish it means no waiting for the compiler's threads. True where the driver does not tell.
     bool is_compiled() const;
-    /// Once it is begun: waits for the compiler; to be called before anything of what follows. Throws Error with the driver's log, in
-    /// which the lines are those of the source files; or where the records of a block have another size than in
-    /// k_buffers.
+    /// Once it is begun: waits for the compiler; to be called before anything of what follows. Throws Error with the
+    /// driver's log, in which the lines are those of the source files; or where the records of a block have another
+    /// size than in k_buffers.
     void finish(const ProgramCache&);
     bool finished() const noexcept { return !source_; }
 
