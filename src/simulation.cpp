@@ -156,6 +156,10 @@ Devices make_devices(const WorldOptions& options) {
     return devices;
 }
 
+/// Those whose kernels any world needs, by and large; first what a driver compiles longest.
+static constexpr std::array k_stages_of_any_world{Stage::NarrowPhase, Stage::Solve, Stage::Prepare,
+                                                  Stage::StoreImpulses, Stage::Finish};
+
 Simulation::Simulation(const WorldOptions& options, Devices devices)
     : gpu(std::move(devices.gpu)), cpu(std::move(devices.cpu)), waits_for_kernels(options.wait_for_kernels) {
     placement.detection = gpu ? gpu.get() : cpu.get();
@@ -189,6 +193,8 @@ Simulation::Simulation(const WorldOptions& options, Devices devices)
     // Reports stay within the memory of the host where the resolution runs there.
     plan.report_room = cpu ? k_none : k_first_reports;
     plan.colour_capacity = std::min(first(options.capacities.colours, k_first_colours), k_first_hub_colour);
+    // The driver may begin while bodies are still being added.
+    if (gpu) gpu->prepare(kernels_of(k_stages_of_any_world, plan_in_launches({}, IslandSolve::Launches)));
 }
 
 Simulation::~Simulation() = default;
@@ -418,6 +424,13 @@ StepPlan Simulation::plan_step(const Population& population) const {
     return now;
 }
 
+std::vector<const Kernel*> Simulation::kernels_of(std::span<const Stage> stages, const StepPlan& by) const {
+    KernelList list(*gpu);
+    for (const Stage stage : stages)
+        if (&placement.of(stage) == gpu.get()) run_stage(list, stage, by);
+    return std::move(list.kernels);
+}
+
 void Simulation::prepare_kernels(const Population& population) {
     if (kernels_prepared || !gpu) return;
     // What a step can do without is begun when it is asked whether that is ready.
@@ -427,19 +440,10 @@ void Simulation::prepare_kernels(const Population& population) {
         if (first.may_be_persistent() && gpu->loops_freely()) first.persistent_groups = 1;
         first.singles = first.has_groups(); // what a large world may need at any time
     }
-    KernelList list(*gpu);
-    const auto note = [&](Stage stage, const StepPlan& by) {
-        if (&placement.of(stage) == gpu.get()) run_stage(list, stage, by);
-    };
-    // What the first step waits for comes first, and of that what a driver compiles longest.
-    note(Stage::NarrowPhase, first);
-    note(Stage::Solve, first);
-    for (std::size_t i = 0; i < k_stage_count; ++i)
-        note(Stage{static_cast<int>(i)}, first);
+    gpu->prepare(kernels_of(k_stages, first));
     first.search = Search::None;
-    note(Stage::BroadPhase, first);
-    if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
-    gpu->prepare(list.kernels);
+    gpu->prepare(kernels_of(std::array{Stage::BroadPhase}, first));
+    if (!first.small && !placement.hybrid()) gpu->prepare(std::array{&weigh_hubs});
     kernels_prepared = true;
 }
 

@@ -40,8 +40,7 @@ Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses, c
         apply_changes(*placement.detection, changes);
         hand_over_bodies(*placement.resolution, *placement.detection, plan); // who has been woken, too
     }
-    for (std::size_t i = 0; i < k_stage_count; ++i) {
-        const Stage stage{static_cast<int>(i)};
+    for (const Stage stage : k_stages) {
         if (placement.hybrid() && stage == Stage::ConstraintGraph) {
             hand_over_manifolds(*placement.detection, *placement.resolution);
             // Contact events compare with the last step's manifolds.

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "broad_phase/box_now.h"
 #include "broad_phase/lane_sweep.h"
 #include "device/cpu/flush_denormals.h"
 #include "device/cpu/instruction_set.h"
@@ -454,6 +455,43 @@ TEST(Lanes, query_axes_with_the_bits_of_one_at_a_time) {
                 EXPECT_EQ(std::memcmp(&one, &answers[lane], sizeof one), 0) << a << " and " << b;
             }
         }
+    }
+}
+
+TEST(Lanes, find_near_as_one_at_a_time) {
+    const FlushDenormals flush;
+    Items items(2, 0.0f);
+    for (uint i = 0; i < Items::k_bodies; ++i) {
+        items.poses[i].position = items.vector(1.0f);
+        items.velocities[i].linear = items.vector(5.0f); // the faster, the farther it sees
+        items.shapes[i].half_extents = vec3(0.3f) + items.vector(0.2f);
+        const uint kind = i % 9 == 8 ? k_kind_absent : i % 3 == 0 ? k_kind_static : k_kind_rigid;
+        items.shapes[i].type =
+            (i % 5 == 4 ? k_shape_sphere : k_shape_box) | kind << 8 | (i % 7 == 6 ? k_sensor_bit : 0u);
+    }
+    items.poses[3].position.x = std::numeric_limits<float>::quiet_NaN();
+    std::vector<Pair> pairs;
+    for (uint a = 0; a < Items::k_bodies; ++a)
+        for (uint b = 0; b < a; ++b)
+            pairs.push_back(make_pair(a, b));
+    const CpuState state = items.state();
+    const auto is_near = [&](const Pair& pair) {
+        return is_candidate(compute_aabb(box_now(state, pair.body_a)), compute_aabb(box_now(state, pair.body_b)));
+    };
+    const auto near = std::ranges::count_if(pairs, is_near);
+    ASSERT_GT(near, 100);
+    ASSERT_LT(near, std::ssize(pairs) - 100);
+    for (const LaneQueries* queries : TALUS_RUNNABLE(lane_queries)) {
+        for (std::size_t first = 0; first + queries->lanes <= pairs.size(); first += queries->lanes) {
+            const uint found = queries->find_near(state, &pairs[first]);
+            for (uint lane = 0; lane < queries->lanes; ++lane)
+                EXPECT_EQ(found >> lane & 1u, is_near(pairs[first + lane]) ? 1u : 0u) << first + lane;
+        }
+    }
+    for (uint count = 1; count <= 32; ++count) { // also such as fill no register
+        const uint found = find_near(state, pairs.data(), count);
+        for (uint i = 0; i < 32; ++i)
+            EXPECT_EQ(found >> i & 1u, i < count && is_near(pairs[i]) ? 1u : 0u) << i << " of " << count;
     }
 }
 

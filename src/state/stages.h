@@ -25,6 +25,12 @@ enum class Stage {
 
 inline constexpr std::size_t k_stage_count = static_cast<std::size_t>(Stage::count);
 
+inline constexpr std::array<Stage, k_stage_count> k_stages{
+#define X(stage, name) Stage::stage,
+    TALUS_STAGES(X)
+#undef X
+};
+
 inline constexpr std::array<const char*, k_stage_count> k_stage_names{
 #define X(stage, name) name,
     TALUS_STAGES(X)
