@@ -21,10 +21,10 @@ const uint k_worth_carrying = 2u; // it carried load in the last step
 inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit, uint label)
 {
     Polygon result = polygon_beside(polygon);
-    vec3 from = corner_of(polygon, 0u);
-    precise float distance_from = sign * component(from, axis) - limit;
     for (uint i = 0u; i < polygon.count; i += 1u) {
+        vec3 from = corner_of(polygon, i);
         vec3 to = corner_of(polygon, choose(i + 1u < polygon.count, i + 1u, 0u));
+        precise float distance_from = sign * component(from, axis) - limit;
         precise float distance_to = sign * component(to, axis) - limit;
         bool inside_from = distance_from <= 0.0f;
         bool inside_to = distance_to <= 0.0f;
@@ -35,8 +35,6 @@ inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit,
             // On the way out the next edge runs along the plane; on the way in it is the rest of this edge.
             add_corner(result, crossing, choose(inside_from, label, label_of(polygon, i)));
         }
-        from = to;
-        distance_from = distance_to;
     }
     return result;
 }
