@@ -295,6 +295,12 @@ inline BodyStart start_at(BodyPose pose)
     return start;
 }
 
+inline bool is_loaded(BodyLoad load)
+{
+    return load.force.x != 0.0f || load.force.y != 0.0f || load.force.z != 0.0f || load.torque.x != 0.0f ||
+           load.torque.y != 0.0f || load.torque.z != 0.0f;
+}
+
 inline BodyLoad no_load()
 {
     BodyLoad load;

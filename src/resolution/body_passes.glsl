@@ -20,7 +20,8 @@ void integrate_body(uint body, uint tick)
     BodyDelta delta = load_delta(body, slot);
     BodyWarmStart warm = load_warm_start(body);
     BodyProperties its_properties = unpack(properties[body]);
-    BodyLoad load = unpack(loads[body]);
+    BodyLoad load = no_load();
+    if ((inertia.traits & k_trait_loaded) != 0u) load = unpack(loads[body]);
     uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
     bool takes_part = substep <= inertia.substeps && is_own(inertia) && (inertia.traits & k_trait_moves) != 0u;
     if (takes_part && (pose.flags & k_body_frozen) == 0u) {

@@ -79,6 +79,9 @@ void put_back_impulses(uint index)
     cell_in_block(constraints, index, 14u) = floatBitsToUint(impulses.total);
 }
 
+// What the contact in hand needs to know of its sub-steps, with such a load. The kernel defines it behind this file.
+Substep substep_in_hand(float present_load_speed);
+
 vec3 slip_of_target; // m: Slip::apart
 
 PassTarget target_of_pass(uint pass)
@@ -86,7 +89,7 @@ PassTarget target_of_pass(uint pass)
     BodyDelta delta_a = load_delta(body_a, slot_a);
     BodyDelta delta_b = load_delta(body_b, slot_b);
     float present_load_speed = load_speed_so_far(load_speed, rows, impulses);
-    Substep substep = make_substep(substeps, is_against_static(traits), present_load_speed, parameters);
+    Substep substep = substep_in_hand(present_load_speed);
     PassTarget target;
     target.friction = make_friction_target(rows, impulses.normal);
     target.old_share = choose(pass == k_solve, 0.0, 1.0);

@@ -2,7 +2,7 @@
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
 // Where its island sleeps it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands.
-// Reads: Counters, Poses, Velocities, Properties, Shapes, Substeps, IslandGroups, BodyColours.
+// Reads: Counters, Poses, Velocities, Properties, Loads, Shapes, Substeps, IslandGroups, BodyColours.
 // Writes: Inertias, Deltas, WarmStarts, ToldLoads (none yet); LaunchedBodies, in any order, and Counters; Poses (flags) and
 // Velocities where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.
@@ -20,6 +20,7 @@ layout(local_size_x = 64) in;
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
+layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
@@ -58,6 +59,7 @@ void main()
     inertia.traits |= traits_in_graph(inertia.traits, body_colours[body_word(body, k_used_low)],
                                       body_colours[body_word(body, k_used_high)], body_colours[body_word(body, k_hub_word)]);
     if (word != its_substeps) inertia.traits |= slowness_trait(ticks, its_substeps);
+    if (is_loaded(unpack(loads[body]))) inertia.traits |= k_trait_loaded;
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
     if (is_in_launched_bodies(inertia))

@@ -41,6 +41,9 @@ inline float heaviness(float load_speed)
     return clamp_to(ratio, 1.0f, 1.0e6f);
 }
 
+// Most contacts are, and then a sub-step is the same for all of one length.
+inline bool is_light(float load_speed) { return heaviness(load_speed) <= 1.0f; }
+
 // What is heavy is pushed apart more slowly: down to this share of the push speed, as more than one contact may push it.
 const float k_least_push_share = 0.166666672f; // a sixth
 

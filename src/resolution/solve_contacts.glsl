@@ -43,6 +43,11 @@ void put_change(uint index, HubChange change)
 
 #include "resolution/contact_passes.glsl"
 
+Substep substep_in_hand(float present_load_speed)
+{
+    return make_substep(substeps, is_against_static(traits), present_load_speed, parameters);
+}
+
 void main()
 {
     uint index = colour_offsets[args.x] + item_index();

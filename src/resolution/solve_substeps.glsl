@@ -88,12 +88,34 @@ void take_in_hand(uint index, bool of_hub)
 
 // ---- passes ----
 
+// Of light contacts with as many sub-steps as most, by whether they are against what cannot be pushed: some hundred operations for
+// each contact in each pass.
+shared Substep usual_substeps[2];
+
+void find_usual_substeps()
+{
+    uint own = gl_LocalInvocationID.x;
+    if (own < 2u) usual_substeps[own] = make_substep(like_substeps, own == 1u, 0.0, parameters);
+}
+
+Substep substep_in_hand(float present_load_speed)
+{
+    bool against_static = is_against_static(traits);
+    Substep substep;
+    if (substeps == like_substeps && is_light(present_load_speed))
+        substep = usual_substeps[choose(against_static, 1u, 0u)];
+    else
+        substep = make_substep(substeps, against_static, present_load_speed, parameters);
+    return substep;
+}
+
 // `last`: the ticks, as many as the most sub-steps that a body has.
 void solve_substeps(uint last)
 {
     like_substeps = is_multirate_solve() ? parameters.least_substeps : last;
     ticks_apart = last / like_substeps;
     find_own_manifolds();
+    find_usual_substeps(); // all wait before the first pass
     for (uint tick = 0u; tick <= last; ++tick) {
         integrate_own_bodies(tick);
         wait_for_workers();

@@ -38,6 +38,7 @@ const uint k_trait_round = 2u;   // a sphere: where it is touched does not turn 
 const uint k_trait_hub = 4u;     // a hub; in a constraint: of whose mass this is a share
 const uint k_trait_grouped = 8u; // of an island that a work group solves
 const uint k_trait_moves = 16u;  // it is rigid or kinematic, and not frozen
+const uint k_trait_loaded = 32u; // the caller pushes it in this step: what has no load need not be asked for it in each sub-step
 const uint k_contacts_of_body = 9u; // from this bit on, 6 of them: contacts in all colours but those of hubs
 const uint k_trait_whole_hub = 256u; // only in a constraint: of a hub, in a colour where that is a body as others are
 
