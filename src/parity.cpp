@@ -131,8 +131,7 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     ParityReport report;
     Content before = content_of(cpu);
     give_content(*gpu, before);
-    for (std::size_t s = 0; s < k_stage_count; ++s) {
-        const Stage stage{static_cast<int>(s)};
+    for (const Stage stage : k_stages) {
         run_stage(cpu, stage, plan);
         run_stage(*gpu, stage, in_parts);
         Content on_cpu = content_of(cpu);

@@ -156,10 +156,6 @@ Devices make_devices(const WorldOptions& options) {
     return devices;
 }
 
-/// Those whose kernels any world needs, by and large; first what a driver compiles longest.
-static constexpr std::array k_stages_of_any_world{Stage::NarrowPhase, Stage::Solve, Stage::Prepare,
-                                                  Stage::StoreImpulses, Stage::Finish};
-
 Simulation::Simulation(const WorldOptions& options, Devices devices)
     : gpu(std::move(devices.gpu)), cpu(std::move(devices.cpu)), waits_for_kernels(options.wait_for_kernels) {
     placement.detection = gpu ? gpu.get() : cpu.get();
@@ -193,8 +189,6 @@ Simulation::Simulation(const WorldOptions& options, Devices devices)
     // Reports stay within the memory of the host where the resolution runs there.
     plan.report_room = cpu ? k_none : k_first_reports;
     plan.colour_capacity = std::min(first(options.capacities.colours, k_first_colours), k_first_hub_colour);
-    // The driver may begin while bodies are still being added.
-    if (gpu) gpu->prepare(kernels_of(k_stages_of_any_world, plan_in_launches({}, IslandSolve::Launches)));
 }
 
 Simulation::~Simulation() = default;
@@ -424,26 +418,28 @@ StepPlan Simulation::plan_step(const Population& population) const {
     return now;
 }
 
-std::vector<const Kernel*> Simulation::kernels_of(std::span<const Stage> stages, const StepPlan& by) const {
-    KernelList list(*gpu);
-    for (const Stage stage : stages)
-        if (&placement.of(stage) == gpu.get()) run_stage(list, stage, by);
-    return std::move(list.kernels);
-}
-
 void Simulation::prepare_kernels(const Population& population) {
     if (kernels_prepared || !gpu) return;
-    // What a step can do without is begun when it is asked whether that is ready.
-    StepPlan first = plan_in_launches(population, waits_for_kernels ? IslandSolve::Groups : IslandSolve::Launches);
-    if (waits_for_kernels) {
-        // How many groups it will have is found by a trial of the kernel itself.
-        if (first.may_be_persistent() && gpu->loops_freely()) first.persistent_groups = 1;
-        first.singles = first.has_groups(); // what a large world may need at any time
-    }
-    gpu->prepare(kernels_of(k_stages, first));
+    StepPlan quickest = plan_in_launches(population, IslandSolve::Groups);
+    // How many groups it will have is found by a trial of the kernel itself.
+    if (quickest.may_be_persistent() && gpu->loops_freely()) quickest.persistent_groups = 1;
+    // What a large world may need at any time.
+    quickest.singles = quickest.has_groups();
+    StepPlan first = waits_for_kernels ? quickest : plan_in_launches(population, IslandSolve::Launches);
+    KernelList list(*gpu);
+    const auto note = [&](Stage stage, const StepPlan& by) {
+        if (&placement.of(stage) == gpu.get()) run_stage(list, stage, by);
+    };
+    // What the first step waits for comes first, and of that what a driver compiles longest.
+    note(Stage::NarrowPhase, first);
+    note(Stage::Solve, first);
+    for (const Stage stage : k_stages)
+        note(stage, first);
     first.search = Search::None;
-    gpu->prepare(kernels_of(std::array{Stage::BroadPhase}, first));
-    if (!first.small && !placement.hybrid()) gpu->prepare(std::array{&weigh_hubs});
+    note(Stage::BroadPhase, first);
+    if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
+    note(Stage::Solve, quickest);
+    gpu->prepare(list.kernels);
     kernels_prepared = true;
 }
 

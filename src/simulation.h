@@ -143,8 +143,6 @@ private:
     StepPlan plan_in_launches(const Population&, IslandSolve) const;
     /// Whether a step may launch one of the kernels that it can do without: they take a driver longest to compile.
     bool may_launch(const Kernel&) const;
-    /// The kernels that the stages launch by this plan, if they run on the GPU.
-    std::vector<const Kernel*> kernels_of(std::span<const Stage>, const StepPlan&) const;
     /// Before the first step: the GPU's driver may compile all of its kernels side by side.
     void prepare_kernels(const Population&);
     void grow_everywhere(BufferId, std::size_t elements);

@@ -145,7 +145,6 @@ TEST_P(GlKernels, compile_and_use_no_more_buffers_than_every_driver_has) {
     for (const std::string& path : kernel_paths()) {
         try {
             GlProgram program(path, find_kernel_target(*context), ProgramCache(false));
-            program.begin();
             program.finish(ProgramCache(false));
             EXPECT_LE(program.blocks().size(), k_max_storage_blocks) << path;
             GLint size[3]{};

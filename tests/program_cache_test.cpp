@@ -64,7 +64,6 @@ protected:
     void make_program(bool wanted = true, const char* kernel = k_kernel) const {
         const ProgramCache cache(wanted);
         GlProgram program(kernel, {}, cache);
-        program.begin();
         program.finish(cache);
         GLint linked = GL_FALSE;
         glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
@@ -136,7 +135,6 @@ TEST_P(ProgramsOnDisk, of_another_source_or_kernel_do_not_count) {
     {
         const ProgramCache cache(true);
         GlProgram other("finish/finish_bodies", {}, cache);
-        other.begin();
         other.finish(cache);
     }
     for (const fs::path& path : files())

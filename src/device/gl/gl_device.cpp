@@ -201,21 +201,20 @@ void GlDevice::set_parameters(const Parameters& parameters) {
 void GlDevice::prepare(std::span<const Kernel* const> kernels) {
     make_current();
     for (const Kernel* kernel : kernels)
-        objects_->prepared.push_back(&begun_program(*kernel));
+        begun_program(*kernel);
 }
 
 bool GlDevice::is_ready(const Kernel& kernel) {
     if (faulty_.contains(&kernel)) return false;
     make_current();
-    GlProgram& late = known_program(kernel);
-    if (!late.is_begun() && !compiles_prepared()) late.begin();
+    GlProgram& begun = begun_program(kernel);
     try {
-        if (!late.finished() && late.is_compiled()) late.finish(objects_->cache);
+        if (!begun.finished() && begun.is_compiled()) begun.finish(objects_->cache);
     } catch (const Error& error) {
         log(LogLevel::Warning, std::string("steps do without a kernel: ") + error.what());
         faulty_.insert(&kernel);
     }
-    return late.finished();
+    return begun.finished();
 }
 
 void GlDevice::run(const Launch& launch) {
@@ -329,9 +328,8 @@ GlBuffer& GlDevice::buffer(BufferId id) const {
 
 void GlDevice::keep_programs() {
     if (!objects_->cache.keeps()) return;
-    for (auto& [path, program] : objects_->programs) {
-        if (program.is_begun()) finish_unneeded(program);
-    }
+    for (auto& [path, program] : objects_->programs)
+        finish_unneeded(program);
 }
 
 bool GlDevice::finish_unneeded(GlProgram& program) {
@@ -343,20 +341,9 @@ bool GlDevice::finish_unneeded(GlProgram& program) {
     }
 }
 
-GlProgram& GlDevice::known_program(const Kernel& kernel) {
+GlProgram& GlDevice::begun_program(const Kernel& kernel) {
     const std::string path = kernel.path;
     return objects_->programs.try_emplace(path, path, kernel_target_, objects_->cache).first->second;
-}
-
-GlProgram& GlDevice::begun_program(const Kernel& kernel) {
-    GlProgram& known = known_program(kernel);
-    known.begin();
-    return known;
-}
-
-bool GlDevice::compiles_prepared() {
-    std::erase_if(objects_->prepared, [](const GlProgram* each) { return each->is_compiled(); });
-    return !objects_->prepared.empty();
 }
 
 GlProgram& GlDevice::program(const Kernel& kernel) {

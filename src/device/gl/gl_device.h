@@ -9,7 +9,6 @@
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
-#include <vector>
 
 #include "device/device.h"
 #include "device/gl/gl_bindings.h"
@@ -39,8 +38,7 @@ public:
     void swap(BufferId, BufferId) override;
     void set_parameters(const Parameters&) override;
     void prepare(std::span<const Kernel* const>) override;
-    /// A kernel that turns out to be faulty never is, and the log says so once. One that has to be compiled is begun
-    /// when those that were prepared are compiled: side by side each takes longer.
+    /// A kernel that turns out to be faulty never is, and the log says so once.
     bool is_ready(const Kernel&) override;
     void run(const Launch&) override;
     void leave() override;
@@ -64,17 +62,14 @@ private:
         GlBuffer parameters;
         ProgramCache cache;
         std::unordered_map<std::string, GlProgram> programs;
-        std::vector<const GlProgram*> prepared; ///< of these, those that are perhaps still compiled
         UploadRing uploads;
         ReadBack read_back;
         StepRing steps;
     };
 
     GlBuffer& buffer(BufferId) const;
-    /// The kernel's program, perhaps not even begun.
-    GlProgram& known_program(const Kernel&);
+    /// The kernel's program, perhaps unfinished.
     GlProgram& begun_program(const Kernel&);
-    bool compiles_prepared();
     GlProgram& program(const Kernel&);
     /// While one is still compiled: some drivers make the machine's code only when the program is first asked for, on
     /// this thread. Naps where none is ready.

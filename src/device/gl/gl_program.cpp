@@ -77,15 +77,16 @@ void compile_side_by_side() {
 
 GlProgram::GlProgram(const std::string& path, const KernelTarget& target, const ProgramCache& cache)
     : path_(path), source_(std::make_unique<KernelSource>(kernel_source(path, target))),
-      name_(cache.load(path, source_->text)) {}
+      name_(cache.load(path, source_->text)) {
+    if (name_ == 0) begin_compiling();
+}
 
 GlProgram::~GlProgram() {
     glDeleteShader(shader_);
     glDeleteProgram(name_);
 }
 
-void GlProgram::begin() {
-    if (is_begun()) return;
+void GlProgram::begin_compiling() {
     shader_ = glCreateShader(GL_COMPUTE_SHADER);
     const char* text = source_->text.c_str();
     glShaderSource(shader_, 1, &text, nullptr);
@@ -97,7 +98,6 @@ void GlProgram::begin() {
 }
 
 bool GlProgram::is_compiled() const {
-    if (!is_begun()) return false;
     if (shader_ == 0 || !compiles_side_by_side()) return true;
     GLint done = GL_FALSE;
     glGetProgramiv(name_, GL_COMPLETION_STATUS_ARB, &done);

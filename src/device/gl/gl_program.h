@@ -31,23 +31,20 @@ void compile_side_by_side();
 
 class GlProgram {
 public:
-    /// Takes the program from the cache, or reads its source (kernel_source). Throws Error where a file of it is
-    /// missing.
+    /// Takes the program from the cache, or gives its source (kernel_source) to the driver's compiler without waiting
+    /// for it. Throws Error where a source file is missing.
     GlProgram(const std::string& path, const KernelTarget&, const ProgramCache&);
     ~GlProgram();
     GlProgram(const GlProgram&) = delete;
     GlProgram& operator=(const GlProgram&) = delete;
 
-    /// Gives what the cache did not have to the driver's compiler, without waiting for it.
-    void begin();
-    bool is_begun() const noexcept { return name_ != 0; }
-    /// Whether to finish it means no waiting for the compiler's threads. True where the driver does not tell.
-    bool is_compiled() const;
-    /// Once it is begun: waits for the compiler; to be called before anything of what follows. Throws Error with the
-    /// driver's log, in which the lines are those of the source files; or where the records of a block have another
-    /// size than in k_buffers.
+    /// Waits for the compiler; to be called before anything of what follows. Throws Error with the driver's log, in
+    /// which the lines are those of the source files; or where the records of a block have another size than in
+    /// k_buffers.
     void finish(const ProgramCache&);
     bool finished() const noexcept { return !source_; }
+    /// Whether to finish it means no waiting for the compiler's threads. True where the driver does not tell.
+    bool is_compiled() const;
 
     GLuint name() const noexcept { return name_; }
     const std::vector<StorageBlock>& blocks() const noexcept { return blocks_; }
@@ -57,6 +54,7 @@ public:
     void set_args(const std::array<uint, 4>&);
 
 private:
+    void begin_compiling();
     void check_compiled() const;
     void find_blocks();
     void find_parameters();
