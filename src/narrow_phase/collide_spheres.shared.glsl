@@ -9,7 +9,7 @@ inline ContactGeometry collide_spheres(float radius_a, float radius_b, vec3 offs
     precise float separation = square * inverse_length - radius_a - radius_b;
     // Centres that coincide leave the direction open: any will do, so long as it is always the same.
     precise vec3 towards_b = offset * inverse_length;
-    vec3 normal = square > 1.0e-12f ? towards_b : vec3(0.0f, 1.0f, 0.0f);
+    vec3 normal = choose(square > 1.0e-12f, towards_b, vec3(0.0f, 1.0f, 0.0f));
     precise vec3 point = normal * (radius_a + 0.5f * separation);
     return contact_within(max_separation, normal, point, separation);
 }
@@ -38,8 +38,8 @@ inline ContactGeometry collide_box_sphere(Axes box, vec3 half_extents, float rad
         uint axis = 0u;
         if (depth.y < depth.x) axis = 1u;
         if (depth.z < min(depth.x, depth.y)) axis = 2u;
-        float side = component(centre, axis) < 0.0f ? -1.0f : 1.0f;
-        normal = vec3(axis == 0u ? side : 0.0f, axis == 1u ? side : 0.0f, axis == 2u ? side : 0.0f);
+        float side = choose(component(centre, axis) < 0.0f, -1.0f, 1.0f);
+        normal = vec3(choose(axis == 0u, side, 0.0f), choose(axis == 1u, side, 0.0f), choose(axis == 2u, side, 0.0f));
         precise float distance = -component(depth, axis) - radius;
         precise vec3 between = centre + normal * (0.5f * (component(depth, axis) - radius));
         separation = distance;

@@ -151,7 +151,7 @@ inline uint find_nearest(OldPoints old, uint free, vec3 point)
     return best.index;
 }
 
-inline uint without(uint free, uint index) { return choose(index == k_none, free, free & ~(1u << index)); }
+inline uint without(uint free, uint index) { return choose(index == k_none, free, free & ~(1u << (index & 31u))); }
 
 // Feature ids say the same only on the same separating axis.
 inline PointMatch match_points(ContactGeometry g, OldPoints old)

@@ -14,7 +14,7 @@ layout(std430) buffer Poses { BodyPoseCells poses[]; };
 void integrate_body(uint body, uint tick)
 {
     BodyInertia inertia = unpack(inertias[body]);
-    // All at once: loads behind a decision wait for what it is made from.
+    // All at once, as loads behind a decision wait for what it is made from; but for what the caller does, as few bodies have that.
     BodyPose pose = unpack(poses[body]);
     uint slot = slot_of(body);
     BodyDelta delta = load_delta(body, slot);

@@ -191,7 +191,7 @@ inline vec2 point_target(float separation, float normal_mass, float impulse, boo
     Softness soft = substep.soft;
     float gap = closing_speed(separation, substep.inv_h);
     precise float push = max(soft.bias_rate * min(separation + p.linear_slop, 0.0f), -substep.push_speed);
-    precise float bias = gap + choose(use_bias, push, 0.0f); // one of the two is 0
+    precise float bias = gap + choose(use_bias, push, 0.0f); // one of the two is 0, as neither slop nor push speed is negative
     precise float mass = normal_mass * choose(biased, soft.mass_scale, 1.0f);
     precise float offset = (impulse - choose(biased, soft.impulse_scale, 0.0f) * impulse) - mass * bias;
     return vec2(mass, offset);
@@ -228,6 +228,7 @@ inline NormalTarget make_normal_target(vec4 separation, ManifoldRows rows, vec4 
     target.lower = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     target.let_go = substep.let_go;
     target.push_speed = substep.push_speed;
+    // To ask each point, and later whether it is hit, takes as long as a sweep: most worlds have nothing that bounces.
     target.hit_speed = vec4(k_never, k_never, k_never, k_never);
     if (any_lane(rows.restitution > 0.0f)) {
         target.hit_speed = vec4(hit_speed(separation.x, rows.normal_mass.x, rows.restitution, inv_h, p),

@@ -46,7 +46,7 @@ vec4 base_separation;
 ManifoldRows rows;
 ManifoldImpulses impulses;
 
-// `of_hub`: perhaps. The compiler is to know where not, as what hubs need takes time where there are none, too.
+// `of_hub`: false where its colour is none for hubs. A constant in each call, so that the compiler leaves out what hubs need.
 void take_constraint(uint index, bool of_hub)
 {
     ContactConstraint c = unpack_ContactConstraint(constraints, index);
@@ -79,7 +79,8 @@ void put_back_impulses(uint index)
     cell_in_block(constraints, index, 14u) = floatBitsToUint(impulses.total);
 }
 
-// What the contact in hand needs to know of its sub-steps, with such a load. The kernel defines it behind this file.
+// What the contact in hand needs to know of its sub-steps, with such a load. Defined behind this file, by solve_substeps.glsl or
+// solve_contacts.glsl.
 Substep substep_in_hand(float present_load_speed);
 
 vec3 slip_of_target; // m: Slip::apart

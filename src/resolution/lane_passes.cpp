@@ -14,8 +14,8 @@ const LanePasses& lane_passes() {
     return TALUS_FOR_THIS_MACHINE(lane_passes);
 }
 
-void Batches::assign(std::vector<uint> indices, std::size_t batch_bytes) {
-    indices_ = std::move(indices);
+void Batches::assign(std::span<const uint> indices, std::size_t batch_bytes) {
+    indices_.assign(indices.begin(), indices.end());
     lines_a_batch_ = (batch_bytes + sizeof(Line) - 1) / sizeof(Line);
     const std::size_t wanted = count() * lines_a_batch_;
     if (wanted <= line_count_) return;

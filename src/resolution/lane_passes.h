@@ -5,7 +5,7 @@
 
 #include <cstddef>
 #include <memory>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "device/cpu/instruction_set.h"
@@ -52,7 +52,7 @@ void tell_load(const CpuState&, const LoadBelow&, uint height);
 class Batches {
 public:
     /// For the items `indices`, each batch of which is to be taken before it is passed over.
-    void assign(std::vector<uint> indices, std::size_t batch_bytes);
+    void assign(std::span<const uint> indices, std::size_t batch_bytes);
     uint count() const { return static_cast<uint>(indices_.size() + lane_passes().lanes - 1) / lane_passes().lanes; }
     std::size_t memory_bytes() const { return line_count_ * sizeof(Line) + indices_.capacity() * sizeof(uint); }
 
@@ -74,16 +74,14 @@ private:
 /// Constraints of one colour.
 class ConstraintBatches : public Batches {
 public:
-    void assign(std::vector<uint> indices) {
-        Batches::assign(std::move(indices), lane_passes().constraint_batch_bytes);
-    }
+    void assign(std::span<const uint> indices) { Batches::assign(indices, lane_passes().constraint_batch_bytes); }
     void take(const CpuState&, uint batch);
     void pass_over(CpuState&, ContactPass, uint tick, uint batch);
 };
 
 class BodyBatches : public Batches {
 public:
-    void assign(std::vector<uint> indices) { Batches::assign(std::move(indices), lane_passes().body_batch_bytes); }
+    void assign(std::span<const uint> indices) { Batches::assign(indices, lane_passes().body_batch_bytes); }
     void take(const CpuState&, uint batch);
     void integrate(CpuState&, uint tick, uint batch);
 };

@@ -35,7 +35,7 @@ void solve_contacts_on_cpu(CpuState& state, const Launch& launch) {
     if (pass == ContactPass::WarmStart) { // the first of a step
         std::vector<uint> indices(count);
         std::iota(indices.begin(), indices.end(), first);
-        batches.assign(std::move(indices));
+        batches.assign(indices);
         state.parallel(
             batches.count(), [&](uint batch) { batches.take(state, batch); }, grain);
     }

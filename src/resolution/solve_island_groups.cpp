@@ -12,7 +12,7 @@ void solve_groups(CpuState& state, const std::function<IslandPlaces(uint group)>
     const auto first_of = [&](uint group) {
         return static_cast<uint>(std::lower_bound(keys, end, manifold_key(group, 0)) - keys);
     };
-    island_memory(state);
+    IslandMemory& memory = island_memory(state);
     state.parallel(
         group_count,
         [&](uint i) {
@@ -28,7 +28,7 @@ void solve_groups(CpuState& state, const std::function<IslandPlaces(uint group)>
             if (work.bodies.empty()) return;
             for (uint index = first_of(group), last = first_of(group + 1); index < last; ++index)
                 work.add_constraint(state, index);
-            solve_together(state, work);
+            solve_together(state, memory, work);
         },
         2);
 }

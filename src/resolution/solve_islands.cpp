@@ -66,9 +66,9 @@ IslandMemory& island_memory(CpuState& state) {
     return *state.island_memory;
 }
 
-void solve_together(CpuState& state, const IslandWork& islands) {
+void solve_together(CpuState& state, IslandMemory& memory, const IslandWork& islands) {
     const Parameters& p = state.parameters;
-    std::unique_ptr<SolverBatches> batches = state.island_memory->take();
+    std::unique_ptr<SolverBatches> batches = memory.take();
     BodyBatches& bodies = batches->bodies;
     std::array<ConstraintBatches, k_overflow_colour>& colours = batches->of_colours;
     bodies.assign(islands.bodies);
@@ -96,14 +96,14 @@ void solve_together(CpuState& state, const IslandWork& islands) {
                 bodies.integrate(state, tick, batch);
         },
         over_contacts);
-    state.island_memory->give_back(std::move(batches));
+    memory.give_back(std::move(batches));
 }
 
 void solve_islands_on_cpu(CpuState& state, const Launch&) {
-    island_memory(state);
+    IslandMemory& memory = island_memory(state);
     const std::vector<IslandWork> parts = collect_islands(state);
     state.parallel(
-        static_cast<uint>(parts.size()), [&](uint i) { solve_together(state, parts[i]); }, 1);
+        static_cast<uint>(parts.size()), [&](uint i) { solve_together(state, memory, parts[i]); }, 1);
 }
 
 const Kernel solve_islands{"resolution/solve_islands", solve_islands_on_cpu, 1};

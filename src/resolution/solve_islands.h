@@ -29,7 +29,7 @@ class IslandMemory {
 public:
     std::unique_ptr<SolverBatches> take();
     void give_back(std::unique_ptr<SolverBatches>);
-    std::size_t memory_bytes() const;
+    std::size_t memory_bytes() const; ///< between steps, when all have been given back
 
 private:
     std::mutex mutex_;
@@ -38,8 +38,8 @@ private:
 
 IslandMemory& island_memory(CpuState&);
 
-/// All sub-steps. Islands may have different numbers of them. Needs island_memory(state).
-void solve_together(CpuState& state, const IslandWork&);
+/// All sub-steps. Islands may have different numbers of them.
+void solve_together(CpuState& state, IslandMemory&, const IslandWork&);
 
 /// Where the bodies of a group stand in the order of islands, and what IslandGroups says of them; by default there are
 /// none.

@@ -2,12 +2,11 @@
 // Opens every compute shader: lets GLSL read the *.shared.glsl files, and holds what every kernel needs.
 #define inline
 
-// Formulas choose by these instead of by ?: and if. Both values are made before: behind ?: stands a branch for NVIDIA's compiler,
-// with what it chooses inside, and that is slower but where a load or much arithmetic is saved (docs/performance.md). The CPU runs
-// formulas on several items side by side by these words.
+// What formulas choose by, where the CPU runs them on several items side by side and where they have to be quick. Both values are
+// made before the choice; what stands in ?: is inside a branch for NVIDIA's compiler, which pays only where it saves a load or much
+// arithmetic (docs/performance.md).
 float choose(bool condition, float yes, float no) { return mix(no, yes, condition); }
 uint choose(bool condition, uint yes, uint no) { return mix(no, yes, condition); }
-bool choose(bool condition, bool yes, bool no) { return mix(no, yes, condition); }
 vec3 choose(bool condition, vec3 yes, vec3 no) { return mix(no, yes, bvec3(condition)); }
 vec4 choose(bool condition, vec4 yes, vec4 no) { return mix(no, yes, bvec4(condition)); }
 #define choose_active(condition, yes, no) (yes) // where the condition is known to hold
