@@ -34,7 +34,7 @@ inline bool is_placed(BodyPose pose, BodyShape shape)
 // nothing for others.
 inline float way_of(vec3 movement, vec4 turn, BodyShape shape)
 {
-    float reach = choose(is_sphere(shape), 0.0f, length3(shape.half_extents));
+    float reach = is_sphere(shape) ? 0.0f : length3(shape.half_extents);
     float half_angle = length3(vec3(turn.x, turn.y, turn.z));
     precise float way = length3(movement) + 2.0f * half_angle * reach;
     return way;
@@ -45,7 +45,9 @@ inline OrientedBox make_oriented_box(BodyPose pose, BodyVelocity velocity, BodyS
     OrientedBox box;
     box.centre = pose.position;
     box.margin = contact_margin(velocity, p);
-    box.rotation = choose(is_sphere(shape), vec4(0.0f, 0.0f, 0.0f, 1.0f), pose.rotation);
+    box.rotation = pose.rotation;
+    if (any_lane(is_sphere(shape)))
+        box.rotation = choose_active(is_sphere(shape), vec4(0.0f, 0.0f, 0.0f, 1.0f), pose.rotation);
     box.half_extents = shape.half_extents;
     box.type = shape.type;
     return box;
@@ -70,11 +72,15 @@ inline Aabb compute_aabb(OrientedBox oriented)
     precise vec3 lower = oriented.centre - reach;
     precise vec3 upper = oriented.centre + reach;
     BodyShape shape = shape_of(oriented);
-    Aabb box; // of what is absent one that overlaps nothing
-    box.lower = choose(is_present(shape), lower, vec3(3.0e38f, 3.0e38f, 3.0e38f));
-    box.upper = choose(is_present(shape), upper, vec3(-3.0e38f, -3.0e38f, -3.0e38f));
+    Aabb box;
+    box.lower = lower;
+    box.upper = upper;
     box.margin = margin;
     box.movable = choose(is_movable(shape) || is_sensor(shape), 1u, 0u); // sensors see bodies that nothing pushes too
+    if (any_lane(!is_present(shape))) { // overlaps nothing
+        box.lower = choose_active(!is_present(shape), vec3(3.0e38f, 3.0e38f, 3.0e38f), lower);
+        box.upper = choose_active(!is_present(shape), vec3(-3.0e38f, -3.0e38f, -3.0e38f), upper);
+    }
     return box;
 }
 
