@@ -15,18 +15,22 @@ static const LaneQueries& lane_queries() {
     return TALUS_FOR_THIS_MACHINE(lane_queries);
 }
 
+/// Of those that fill no register: with the first of them again in the lanes that are left.
+template <typename T> static std::array<T, k_most_lanes> filled_up(const T* first, const T* end) {
+    std::array<T, k_most_lanes> all;
+    all.fill(*first);
+    std::copy(first, end, all.begin());
+    return all;
+}
+
 uint find_near(const CpuState& state, const Pair* pairs, uint count) {
     const LaneQueries& queries = lane_queries();
     uint near = 0, done = 0;
     for (; done + queries.lanes <= count; done += queries.lanes)
         near |= queries.find_near(state, pairs + done) << done;
     if (done == count) return near;
-    // The last ones are asked about with one of them again in the lanes that are left.
-    std::array<Pair, k_most_lanes> rest;
-    rest.fill(pairs[done]);
-    std::copy(pairs + done, pairs + count, rest.begin());
     const uint asked = (1u << (count - done)) - 1;
-    return near | (queries.find_near(state, rest.data()) & asked) << done;
+    return near | (queries.find_near(state, filled_up(pairs + done, pairs + count).data()) & asked) << done;
 }
 
 void query_axes(const CpuState& state, const AxisQuestion* questions, uint count, AxisQuery* answers) {
@@ -35,13 +39,9 @@ void query_axes(const CpuState& state, const AxisQuestion* questions, uint count
     for (; done + queries.lanes <= count; done += queries.lanes)
         queries.query_axes(state, questions + done, answers + done);
     if (done == count) return;
-    // The last ones are asked with one of them again in the lanes that are left.
-    std::array<AxisQuestion, k_most_lanes> rest;
-    std::array<AxisQuery, k_most_lanes> rest_answers;
-    rest.fill(questions[done]);
-    std::copy(questions + done, questions + count, rest.begin());
-    queries.query_axes(state, rest.data(), rest_answers.data());
-    std::copy_n(rest_answers.begin(), count - done, answers + done);
+    std::array<AxisQuery, k_most_lanes> rest;
+    queries.query_axes(state, filled_up(questions + done, questions + count).data(), rest.data());
+    std::copy_n(rest.begin(), count - done, answers + done);
 }
 
 } // namespace talus::engine

@@ -17,33 +17,39 @@ TALUS_LANE BodyShape shapes_at(const CpuState& state, const std::uint32_t* bodie
     return {three_of(shape), floatBitsToUint(shape.w)};
 }
 
+/// Of a Pair or an AxisQuestion in each lane.
+struct BodiesOfPairs {
+    std::uint32_t a[k_lanes], b[k_lanes];
+};
+
+template <typename Item> TALUS_LANE BodiesOfPairs bodies_of(const Item* items) {
+    BodiesOfPairs bodies;
+    for (int lane = 0; lane < k_lanes; ++lane) {
+        bodies.a[lane] = items[lane].body_a;
+        bodies.b[lane] = items[lane].body_b;
+    }
+    return bodies;
+}
+
 TALUS_LANE Aabb aabbs_now(const CpuState& state, const std::uint32_t* bodies) {
-    const auto linear = gather(state.velocities.data, bodies, 0);
-    BodyVelocity velocity; // what a box asks for
-    velocity.linear = three_of(linear);
+    BodyVelocity velocity;
+    velocity.linear = three_of(gather(state.velocities.data, bodies, 0)); // all of it that a box asks for
     return compute_aabb(
         make_oriented_box(poses_at(state, bodies), velocity, shapes_at(state, bodies), state.parameters));
 }
 
 inline std::uint32_t find_near(const CpuState& state, const engine::Pair* pairs) {
-    std::uint32_t body_a[k_lanes], body_b[k_lanes];
-    for (int lane = 0; lane < k_lanes; ++lane) {
-        body_a[lane] = pairs[lane].body_a;
-        body_b[lane] = pairs[lane].body_b;
-    }
-    return bits_of(is_candidate(aabbs_now(state, body_a), aabbs_now(state, body_b)));
+    const BodiesOfPairs bodies = bodies_of(pairs);
+    return bits_of(is_candidate(aabbs_now(state, bodies.a), aabbs_now(state, bodies.b)));
 }
 
 inline void query_axes(const CpuState& state, const AxisQuestion* questions, engine::AxisQuery* answers) {
-    std::uint32_t body_a[k_lanes], body_b[k_lanes];
+    const BodiesOfPairs bodies = bodies_of(questions);
     UintVector old_axes{};
-    for (int lane = 0; lane < k_lanes; ++lane) {
-        body_a[lane] = questions[lane].body_a;
-        body_b[lane] = questions[lane].body_b;
+    for (int lane = 0; lane < k_lanes; ++lane)
         old_axes[lane] = questions[lane].old_axis;
-    }
-    const BoxPair boxes = make_box_pair(poses_at(state, body_a), shapes_at(state, body_a), poses_at(state, body_b),
-                                        shapes_at(state, body_b));
+    const BoxPair boxes = make_box_pair(poses_at(state, bodies.a), shapes_at(state, bodies.a),
+                                        poses_at(state, bodies.b), shapes_at(state, bodies.b));
     const AxisQuery best = query_axes(boxes, ULanes(old_axes));
     for (int lane = 0; lane < k_lanes; ++lane)
         answers[lane] = {best.separation.v[lane], best.score.v[lane], best.axis.v[lane]};

@@ -88,8 +88,8 @@ void take_in_hand(uint index, bool of_hub)
 
 // ---- passes ----
 
-// Of light contacts with as many sub-steps as most, by whether they are against what cannot be pushed: some hundred operations for
-// each contact in each pass.
+// Of light contacts with as many sub-steps as most, by whether they are against what cannot be pushed. To find it anew would take
+// each contact some hundred operations in each pass.
 shared Substep usual_substeps[2];
 
 void find_usual_substeps()
