@@ -46,43 +46,57 @@ inline AxisQuery better_axis(AxisQuery best, float separation, float preference,
     return best;
 }
 
-inline AxisQuery try_face(AxisQuery best, BoxPair p, vec3 normal, uint axis, uint old_axis)
+inline AxisQuery try_faces(AxisQuery best, vec3 separation, uint first_axis, uint old_axis)
 {
-    return better_axis(best, separation_along(p, normal), k_face_preference, axis, old_axis);
+    best = better_axis(best, separation.x, k_face_preference, first_axis, old_axis);
+    best = better_axis(best, separation.y, k_face_preference, first_axis + 1u, old_axis);
+    return better_axis(best, separation.z, k_face_preference, first_axis + 2u, old_axis);
 }
 
-inline AxisQuery try_edges(AxisQuery best, BoxPair p, vec3 edge_a, vec3 edge_b, uint axis, uint old_axis)
+// Along the cross product of one of A's edges and one of B's. `edge`, `offset`, `half_a`: of B's edge, of B's centre and of A's
+// half extents what lies along A's two other axes; `reach_b`: B's extent, as the cross product is long.
+inline AxisQuery try_edges(AxisQuery best, vec2 edge, vec2 offset, vec2 half_a, float reach_b, uint axis, uint old_axis)
 {
-    vec3 across = cross3(edge_a, edge_b);
-    float square = dot3(across, across);
-    if (any_lane(square > k_parallel)) {
-        vec3 direction = scale3(across, inverse_sqrt(square));
-        best = choose_active(square > k_parallel,
-                             better_axis(best, separation_along(p, direction), 0.0f, axis, old_axis), best);
+    precise float square = edge.x * edge.x + edge.y * edge.y; // of the length of the cross product
+    precise float reach = half_a.x * abs(edge.y) + half_a.y * abs(edge.x) + reach_b;
+    precise float apart = abs(edge.x * offset.y - edge.y * offset.x) - reach;
+    // The cross product is no longer than one, so where the boxes overlap along it, it can be no better than this.
+    bool may_be_better = apart > 0.0f || apart + k_axis_persistence > best.score;
+    bool is_tried = square > k_parallel && may_be_better;
+    if (any_lane(is_tried)) {
+        precise float separation = apart * inverse_sqrt(square);
+        best = choose_active(is_tried, better_axis(best, separation, 0.0f, axis, old_axis), best);
     }
     return best;
+}
+
+// B's edge along one of its axes with all of A's. `first`, `second`: B's other axes, as A sees them.
+inline AxisQuery try_edges_of_b(AxisQuery best, BoxPair p, vec3 edge, vec3 offset, vec3 first, float half_first, vec3 second,
+                                float half_second, uint first_axis, uint old_axis)
+{
+    vec3 half_a = p.half_a;
+    precise vec3 reach = abs(second) * half_first + abs(first) * half_second;
+    best = try_edges(best, vec2(edge.y, edge.z), vec2(offset.y, offset.z), vec2(half_a.y, half_a.z), reach.x, first_axis, old_axis);
+    best = try_edges(best, vec2(edge.z, edge.x), vec2(offset.z, offset.x), vec2(half_a.z, half_a.x), reach.y, first_axis + 3u,
+                     old_axis);
+    return try_edges(best, vec2(edge.x, edge.y), vec2(offset.x, offset.y), vec2(half_a.x, half_a.y), reach.z, first_axis + 6u,
+                     old_axis);
 }
 
 // Face queries of both boxes (algorithm 5) and the edge query (algorithm 6). Written out for lanes, which cannot choose
 // an axis by its number.
 inline AxisQuery query_axes(BoxPair p, uint old_axis)
 {
+    BoxView b = seen_from_a(p);
+    FaceSeparations faces = separate_along_faces(p, b);
+    vec3 x = b.axes.x;
+    vec3 y = b.axes.y;
+    vec3 z = b.axes.z;
     AxisQuery best = no_query();
     best.axis = 0u; // also of boxes that are nowhere
-    best = try_face(best, p, p.a.x, 0u, old_axis);
-    best = try_face(best, p, p.a.y, 1u, old_axis);
-    best = try_face(best, p, p.a.z, 2u, old_axis);
-    best = try_face(best, p, p.b.x, 3u, old_axis);
-    best = try_face(best, p, p.b.y, 4u, old_axis);
-    best = try_face(best, p, p.b.z, 5u, old_axis);
-    best = try_edges(best, p, p.a.x, p.b.x, 6u, old_axis);
-    best = try_edges(best, p, p.a.x, p.b.y, 7u, old_axis);
-    best = try_edges(best, p, p.a.x, p.b.z, 8u, old_axis);
-    best = try_edges(best, p, p.a.y, p.b.x, 9u, old_axis);
-    best = try_edges(best, p, p.a.y, p.b.y, 10u, old_axis);
-    best = try_edges(best, p, p.a.y, p.b.z, 11u, old_axis);
-    best = try_edges(best, p, p.a.z, p.b.x, 12u, old_axis);
-    best = try_edges(best, p, p.a.z, p.b.y, 13u, old_axis);
-    best = try_edges(best, p, p.a.z, p.b.z, 14u, old_axis);
-    return best;
+    best = try_faces(best, faces.a, 0u, old_axis);
+    best = try_faces(best, faces.b, 3u, old_axis);
+    best = try_edges_of_b(best, p, x, b.offset, y, p.half_b.y, z, p.half_b.z, 6u, old_axis);
+    best = try_edges_of_b(best, p, y, b.offset, z, p.half_b.z, x, p.half_b.x, 7u, old_axis);
+    return try_edges_of_b(best, p, z, b.offset, x, p.half_b.x, y, p.half_b.y, 8u, old_axis);
 }
