@@ -76,6 +76,7 @@ struct Items {
         s.loads = {loads.data(), loads.size()};
         s.inertias = {inertias.data(), inertias.size()};
         s.warm_starts = {warm_starts.data(), warm_starts.size()};
+        if (keeps_hits) s.hits = {hits.data(), hits.size()};
         s.deltas = {deltas.data(), deltas.size()};
         s.constraints = {constraints.data(), constraints.size()};
         s.counters = {counters.data(), counters.size()};
@@ -103,8 +104,10 @@ struct Items {
         const uint traits = is_static ? 0 : kind == k_kind_kinematic ? k_trait_moves : k_trait_moves | k_trait_movable;
         inertias.push_back(world_inertia(rotation, inverse_inertia, traits, i % 7 == 6 ? 2 : 8));
         velocities.back().angular = i == 3 ? vec3(1e30f) : velocities.back().angular; // ends non-finite
-        warm_starts.push_back(no_warm_start(velocities.back()));
-        warm_starts.back().linear = vector(0.1f);
+        warm_starts.push_back(kept_warm_start(no_warm_start(), velocities.back()));
+        warm_starts.back().linear += vector(0.1f);
+        hits.push_back(no_hits(no_warm_start()));
+        hits.back().shift = vector(i % 8 == 0 ? 0.01f : 0.0f);
         deltas.push_back(
             {vector(0.01f), 0.0f, normalise_quaternion(vec4(number(0.01f), number(0.01f), number(0.01f), 1.0f))});
     }
@@ -151,6 +154,8 @@ struct Items {
     std::vector<BodyLoad> loads;
     std::vector<BodyInertia> inertias;
     std::vector<BodyWarmStart> warm_starts;
+    std::vector<BodyHits> hits;
+    bool keeps_hits = true;
     std::vector<BodyDelta> deltas;
     std::vector<ContactConstraint> constraints;
     std::vector<uint> counters;
@@ -171,6 +176,7 @@ void expect_same(const Items& one, const Items& lanes) {
     expect_same(one.velocities, lanes.velocities, "velocity");
     expect_same(one.deltas, lanes.deltas, "movement");
     expect_same(one.warm_starts, lanes.warm_starts, "warm start");
+    expect_same(one.hits, lanes.hits, "hits");
     expect_same(one.constraints, lanes.constraints, "constraint");
     expect_same(one.poses, lanes.poses, "pose");
     expect_same(one.counters, lanes.counters, "counter");
@@ -290,6 +296,7 @@ TEST(Lanes, integrate_bodies_with_the_bits_of_one_at_a_time) {
                 constexpr uint k_without_a_speed = 5;
                 for (Items* items : {&one, &lanes})
                     items->velocities[k_without_a_speed].angular.x = std::numeric_limits<float>::quiet_NaN();
+                one.keeps_hits = lanes.keeps_hits = substep % 2 == 0;
                 CpuState one_state = one.state(), lanes_state = lanes.state();
                 const std::vector<uint> indices = first_items(count);
                 for (const uint i : indices)

@@ -105,56 +105,78 @@ inline vec3 turn_freely(vec3 w, vec3 inverse_inertia, float h)
 // is the change of its velocity from before the last sub-step's contacts to now, so a body finds its share by itself:
 // only the first sub-step of a step, whose impulses come from the last step, needs a pass over the contacts.
 
-inline BodyWarmStart no_warm_start(BodyVelocity velocity)
+// As it is kept from one sub-step to the next: `warm` less the velocity with which contacts begin.
+inline BodyWarmStart kept_warm_start(BodyWarmStart warm, BodyVelocity velocity)
+{
+    precise vec3 linear = warm.linear - velocity.linear;
+    precise vec3 angular = warm.angular - velocity.angular;
+    warm.linear = linear;
+    warm.angular = angular;
+    return warm;
+}
+
+// `kept`, with what the last sub-step's contacts have changed: its own velocity was taken off, and this is the one behind them.
+inline BodyWarmStart gather_impulses(BodyWarmStart kept, BodyVelocity velocity)
+{
+    precise vec3 linear = kept.linear + velocity.linear;
+    precise vec3 angular = kept.angular + velocity.angular;
+    kept.linear = linear;
+    kept.angular = angular;
+    return kept;
+}
+
+inline BodyWarmStart no_warm_start()
 {
     BodyWarmStart warm;
     warm.linear = vec3(0.0f, 0.0f, 0.0f);
-    warm.shift_x = 0.0f;
+    warm.reserved_1 = 0.0f;
     warm.angular = vec3(0.0f, 0.0f, 0.0f);
-    warm.shift_y = 0.0f;
-    warm.linear_before = velocity.linear;
-    warm.shift_z = 0.0f;
-    warm.angular_before = velocity.angular;
-    warm.reserved = 0.0f;
+    warm.reserved_2 = 0.0f;
     return warm;
 }
 
-// Adds what the last sub-step's contacts have changed. Its movement is over.
-inline BodyWarmStart gather_impulses(BodyWarmStart warm, BodyVelocity velocity)
+// What changes the velocity so, a hit or a limit, is no load to start from. In the order of these sums nothing is left of it where
+// contacts have changed nothing else.
+inline BodyWarmStart leave_out(BodyWarmStart kept, BodyVelocity before, BodyVelocity after)
 {
-    precise vec3 linear = warm.linear + (velocity.linear - warm.linear_before);
-    precise vec3 angular = warm.angular + (velocity.angular - warm.angular_before);
-    warm.linear = linear;
-    warm.angular = angular;
-    warm.shift_x = 0.0f;
-    warm.shift_y = 0.0f;
-    warm.shift_z = 0.0f;
-    return warm;
+    precise vec3 linear = (kept.linear + before.linear) - after.linear;
+    precise vec3 angular = (kept.angular + before.angular) - after.angular;
+    kept.linear = linear;
+    kept.angular = angular;
+    return kept;
 }
 
-// Of a body that is hit `time` into the sub-step: leaves out what the hit has changed, which is no load to start from.
-// The sub-step will move the body by its velocity after the hit; until then it has had the one before. In the order of
-// these sums nothing is left of the hit where contacts have changed nothing else.
-inline BodyWarmStart take_hit(BodyWarmStart warm, BodyVelocity before, BodyVelocity after, float time)
+// ---- hits ----
+
+// At the start of a sub-step, with the warm start that it begins with.
+inline BodyHits no_hits(BodyWarmStart warm)
 {
-    precise vec3 linear = after.linear - (before.linear - warm.linear_before);
-    precise vec3 angular = after.angular - (before.angular - warm.angular_before);
-    precise vec3 shift = vec3(warm.shift_x, warm.shift_y, warm.shift_z) + (before.linear - after.linear) * time;
-    warm.linear_before = linear;
-    warm.angular_before = angular;
-    warm.shift_x = shift.x;
-    warm.shift_y = shift.y;
-    warm.shift_z = shift.z;
-    return warm;
+    BodyHits hits;
+    hits.shift = vec3(0.0f, 0.0f, 0.0f);
+    hits.reserved_1 = 0.0f;
+    hits.load = warm.linear;
+    hits.reserved_2 = 0.0f;
+    return hits;
+}
+
+// Of a body that is hit `time` into the sub-step, which will move it by its velocity after the hit; until then it has had the one
+// before.
+inline BodyHits take_hit(BodyHits hits, BodyVelocity before, BodyVelocity after, float time)
+{
+    precise vec3 shift = hits.shift + (before.linear - after.linear) * time;
+    hits.shift = shift;
+    return hits;
 }
 
 // Where the hits of the sub-step say that the body has been all along.
-inline BodyDelta shifted(BodyDelta delta, BodyWarmStart warm)
+inline BodyDelta shifted(BodyDelta delta, vec3 shift)
 {
-    precise vec3 position = delta.position + vec3(warm.shift_x, warm.shift_y, warm.shift_z);
+    precise vec3 position = delta.position + shift;
     delta.position = position;
     return delta;
 }
+
+// ---- forces ----
 
 // The implicit 1 / (1 + h c). Without damping it is 1, not a rounding less: a body in free flight keeps its speed.
 inline float damping_factor(float damping, float h)
@@ -175,11 +197,11 @@ inline vec3 acceleration_by_forces(BodyVelocity velocity, BodyProperties body, B
 const float k_falling_share = 0.125f;
 
 // m/s², by forces, of a body that falls freely in this sub-step. 0 of one that contacts hold, or that does not move.
-inline vec3 falling_acceleration(BodyVelocity velocity, BodyWarmStart warm, BodyProperties body, BodyInertia inertia,
+inline vec3 falling_acceleration(BodyVelocity velocity, BodyWarmStart kept, BodyProperties body, BodyInertia inertia,
                                  BodyLoad load, float h, Parameters p)
 {
     vec3 by_forces = acceleration_by_forces(velocity, body, load, p);
-    precise vec3 by_contacts = warm.linear + (velocity.linear - warm.linear_before);
+    vec3 by_contacts = gather_impulses(kept, velocity).linear;
     precise float limit = k_falling_share * h;
     precise float square_limit = limit * limit * dot3(by_forces, by_forces);
     bool falls = (inertia.traits & k_trait_moves) != 0u && dot3(by_contacts, by_contacts) < square_limit;
@@ -197,20 +219,10 @@ inline BodyVelocity limit_speeds(BodyVelocity velocity, Parameters p)
     return velocity;
 }
 
-// What a limit takes away is no impulse of contacts: the next sub-step starts from those as they are.
-inline BodyWarmStart leave_out(BodyWarmStart warm, BodyVelocity before, BodyVelocity after)
-{
-    precise vec3 linear = warm.linear_before + (after.linear - before.linear);
-    precise vec3 angular = warm.angular_before + (after.angular - before.angular);
-    warm.linear_before = linear;
-    warm.angular_before = angular;
-    return warm;
-}
-
 // ---- a sub-step ----
 
 // Velocity after the sub-step's forces: gravity, the caller's load, damping, gyroscopic torque, the speed limits; then
-// the warm start. `rotation` is the present one.
+// the warm start, as a whole. `rotation` is the present one.
 inline BodyVelocity integrate_velocity(BodyVelocity velocity, BodyWarmStart warm, vec4 rotation, BodyProperties body,
                                        BodyInertia inertia, BodyLoad load, bool rigid, float h, Parameters p)
 {
@@ -258,12 +270,12 @@ inline BodyVelocity stop(BodyVelocity velocity)
     return velocity;
 }
 
-// `falling`: falling_acceleration. What falls moves along its parabola, h v - h^2 a / 2 with the velocity that it has at
+// `shift`: BodyHits::shift. `falling`: falling_acceleration. What falls moves along its parabola, h v - h^2 a / 2 with the velocity that it has at
 // the end; what contacts hold moves by h v, as they were solved for.
-inline BodyDelta integrate_position(BodyDelta delta, BodyWarmStart warm, BodyVelocity velocity, vec3 falling, float h)
+inline BodyDelta integrate_position(BodyDelta delta, vec3 shift, BodyVelocity velocity, vec3 falling, float h)
 {
     precise float half_square = 0.5f * h * h;
-    vec3 position = add_scaled(shifted(delta, warm).position, velocity.linear, h);
+    vec3 position = add_scaled(shifted(delta, shift).position, velocity.linear, h);
     delta.position = add_scaled(position, falling, -half_square);
     delta.rotation = integrate_rotation(delta.rotation, velocity.angular, h);
     return delta;

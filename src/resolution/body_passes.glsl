@@ -4,8 +4,9 @@
 //   bool is_own(BodyInertia inertia), whether the kernel solves such a body
 //   BodyVelocity load_settled_velocity(uint slot, uint its_traits), once all contacts of the sub-step before are passed over
 //   void store_delta(uint body, uint slot, BodyDelta delta)
-// and it declares Properties, Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
-// Reads: Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
+//   bool some_bounce(), whether there may be a restitution above 0
+// and it declares Properties, Loads, Inertias, WarmStarts, Hits and Counters. The CPU's counterpart is body_passes.h.
+// Reads: Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Hits, Deltas.
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 
@@ -32,7 +33,8 @@ void integrate_body(uint body, uint tick)
             warm = leave_out(warm, velocity, limited);
             velocity = limited;
             vec3 falling = falling_acceleration(velocity, warm, its_properties, inertia, load, h, parameters);
-            delta = integrate_position(delta, warm, velocity, falling, h);
+            vec3 shift = some_bounce() ? load_hits(body).shift : vec3(0.0);
+            delta = integrate_position(delta, shift, velocity, falling, h);
             store_delta(body, slot, delta);
         }
         if (substep < inertia.substeps) {
@@ -42,14 +44,13 @@ void integrate_body(uint body, uint tick)
                                           (inertia.traits & k_trait_movable) != 0u, h, parameters);
             if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
                 velocity = frozen_velocity();
-                warm = no_warm_start(velocity);
+                warm = no_warm_start();
                 pose.flags |= k_body_frozen;
                 poses[body] = pack(pose);
                 atomicAdd(counters[k_counter_frozen_bodies], 1u);
             }
-            warm.linear_before = velocity.linear;
-            warm.angular_before = velocity.angular;
-            warm_starts[body] = pack(warm);
+            if (some_bounce()) hits[body] = pack(no_hits(warm));
+            warm_starts[body] = pack(kept_warm_start(warm, velocity));
             store_velocity(slot, velocity);
         }
     }

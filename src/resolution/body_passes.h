@@ -29,7 +29,8 @@ inline void integrate_body(CpuState& state, uint body, uint tick) {
         warm = leave_out(warm, velocity, limited);
         velocity = limited;
         const vec3 falling = falling_acceleration(velocity, warm, properties, inertia, load, h, state.parameters);
-        delta = integrate_position(delta, warm, velocity, falling, h);
+        const vec3 shift = state.keeps_hits() ? state.hits[body].shift : vec3(0.0f);
+        delta = integrate_position(delta, shift, velocity, falling, h);
     }
     if (substep == inertia.substeps) return;
 
@@ -39,13 +40,12 @@ inline void integrate_body(CpuState& state, uint body, uint tick) {
                                   (inertia.traits & k_trait_movable) != 0, h, state.parameters);
     if (!is_finite3(velocity.linear) || !is_finite3(velocity.angular)) {
         velocity = frozen_velocity();
-        warm = no_warm_start(velocity);
+        warm = no_warm_start();
         pose.flags |= k_body_frozen;
         std::atomic_ref(state.counters[k_counter_frozen_bodies]).fetch_add(1);
     }
-    warm.linear_before = velocity.linear;
-    warm.angular_before = velocity.angular;
-    state.warm_starts[body] = warm;
+    if (state.keeps_hits()) state.hits[body] = no_hits(warm);
+    state.warm_starts[body] = kept_warm_start(warm, velocity);
     state.velocities[body] = velocity;
 }
 

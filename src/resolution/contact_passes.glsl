@@ -9,13 +9,14 @@
 //   const bool k_multirate_islands, whether a body may have more sub-steps than a contact of it
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
-// Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts.
+// Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts, Hits.
 
 layout(std430) buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
+layout(std430) coherent buffer Hits { BodyHitsCells hits[]; };
 
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
 BodyWarmStart load_warm_start(uint body)
@@ -23,6 +24,14 @@ BodyWarmStart load_warm_start(uint body)
     BodyWarmStartCells warm = warm_starts[body];
     return unpack(warm);
 }
+
+BodyHits load_hits(uint body)
+{
+    BodyHitsCells its_hits = hits[body];
+    return unpack(its_hits);
+}
+
+bool some_bounce() { return k_bounces; }
 
 const uint k_warm_start = 0u;
 const uint k_solve = 1u;       // with bias
@@ -126,16 +135,17 @@ void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
 {
     if (before.inverse_mass == 0.0) return;
     BodyWarmStart warm = load_warm_start(body);
-    warm_starts[body] = pack(take_hit(warm, before, after, time));
+    warm_starts[body] = pack(leave_out(warm, before, after));
+    BodyHits its_hits = load_hits(body);
+    hits[body] = pack(take_hit(its_hits, before, after, time));
     groupMemoryBarrier(); // the body's own invocation reads it
 }
 
-vec4 load_hits(uint index) { return uintBitsToFloat(cell_in_block(constraints, index, 15u)); }
+vec4 hits_of_constraint(uint index) { return uintBitsToFloat(cell_in_block(constraints, index, 15u)); }
 
 bool can_be_hit(uint index, ManifoldState before)
 {
-    return !has_been_hit(load_hits(index)) ||
-           can_be_hit_again(before, load_warm_start(body_a), load_warm_start(body_b));
+    return !has_been_hit(hits_of_constraint(index)) || can_be_hit_again(before, load_hits(body_a), load_hits(body_b));
 }
 
 vec3 falling_acceleration_of(uint body, BodyVelocity velocity)
@@ -148,8 +158,8 @@ vec3 falling_acceleration_of(uint body, BodyVelocity velocity)
 // Instead of the pass that has found the hit, whose result was not put back.
 ManifoldState pass_over_hit(uint index, float old_share)
 {
-    BodyDelta delta_a = shifted(load_delta(body_a, slot_a), load_warm_start(body_a));
-    BodyDelta delta_b = shifted(load_delta(body_b, slot_b), load_warm_start(body_b));
+    BodyDelta delta_a = shifted(load_delta(body_a, slot_a), load_hits(body_a).shift);
+    BodyDelta delta_b = shifted(load_delta(body_b, slot_b), load_hits(body_b).shift);
     Slip slip = measure_slip(rows.meeting, gap_at_start, traits, delta_a, delta_b);
     Substep substep = make_substep(substeps, is_against_static(traits), load_speed, parameters);
     vec4 separations = current_separations(rows, base_separation, traits, delta_a, delta_b);
@@ -160,7 +170,7 @@ ManifoldState pass_over_hit(uint index, float old_share)
     if (!is_finite_pair(hit.velocities)) return before;
     put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
-    cell_in_block(constraints, index, 15u) = floatBitsToUint(load_hits(index) + hit.impulse);
+    cell_in_block(constraints, index, 15u) = floatBitsToUint(hits_of_constraint(index) + hit.impulse);
     return end_hit(before, hit, old_share);
 }
 

@@ -25,19 +25,19 @@ inline bool has_been_hit(vec4 hits) { return sum4(hits) > 0.0f; }
 // at rest is 0.0204.
 const float k_loaded = 0.02f;
 
-inline bool is_loaded(BodyVelocity velocity, BodyWarmStart warm)
+inline bool is_loaded(BodyVelocity velocity, BodyHits hits)
 {
-    return velocity.inverse_mass > 0.0f && dot3(warm.linear, warm.linear) > k_loaded * k_loaded;
+    return velocity.inverse_mass > 0.0f && dot3(hits.load, hits.load) > k_loaded * k_loaded;
 }
 
 // A contact is hit as often in a step as its bodies meet, as the edges of a box do that lands a little tilted, or a ball
 // between two walls. But not where there is a load: a light body that a heavy one presses against another is thrown to
 // and fro within a step by what its contacts change. Each throw would be a hit, none of which changes the load, and that
 // drove the heavy one on.
-inline bool can_be_hit_again(ManifoldState before, BodyWarmStart warm_a, BodyWarmStart warm_b)
+inline bool can_be_hit_again(ManifoldState before, BodyHits hits_a, BodyHits hits_b)
 {
     precise vec4 carried = before.impulses.normal + before.impulses.total;
-    return !(sum4(carried) > 0.0f) && !is_loaded(before.velocities.a, warm_a) && !is_loaded(before.velocities.b, warm_b);
+    return !(sum4(carried) > 0.0f) && !is_loaded(before.velocities.a, hits_a) && !is_loaded(before.velocities.b, hits_b);
 }
 
 struct Hit {

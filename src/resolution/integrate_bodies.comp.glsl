@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: the movement that ends a sub-step, and the forces that begin the next one.
-// args.x: the tick.
+// args.x: the tick. args.y: 1 where something may bounce.
 // Reads: Properties, Loads, Inertias.
-// Writes: Velocities, Deltas, WarmStarts; Poses (flags) and Counters where a body is frozen.
+// Writes: Velocities, Deltas, WarmStarts, Hits; Poses (flags) and Counters where a body is frozen.
 // Needs: a barrier after prepare_bodies, and after the pass before.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -19,6 +19,7 @@ layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
+layout(std430) buffer Hits { BodyHitsCells hits[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
 uint slot_of(uint body) { return body; }
@@ -26,6 +27,8 @@ BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
 BodyDelta load_delta(uint body, uint slot) { return unpack(deltas[body]); }
 void store_delta(uint body, uint slot, BodyDelta delta) { deltas[body] = pack(delta); }
 BodyWarmStart load_warm_start(uint body) { return unpack(warm_starts[body]); }
+BodyHits load_hits(uint body) { return unpack(hits[body]); }
+bool some_bounce() { return args.y == 1u; }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 
 const bool k_multirate_islands = true;

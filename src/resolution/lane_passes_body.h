@@ -31,9 +31,8 @@ TALUS_LANE void put_deltas(const CpuState& state, const Places& bodies, std::uin
 }
 
 TALUS_LANE BodyWarmStart warm_starts_at(const CpuState& state, const std::uint32_t* bodies) {
-    const auto a = gather(state.warm_starts.data, bodies, 0), b = gather(state.warm_starts.data, bodies, 1),
-               c = gather(state.warm_starts.data, bodies, 2), d = gather(state.warm_starts.data, bodies, 3);
-    return {three_of(a), a.w, three_of(b), b.w, three_of(c), c.w, three_of(d), d.w};
+    const auto a = gather(state.warm_starts.data, bodies, 0), b = gather(state.warm_starts.data, bodies, 1);
+    return {three_of(a), a.w, three_of(b), b.w};
 }
 
 TALUS_LANE BodyDelta choose(Mask m, const BodyDelta& yes, const BodyDelta& no) {
@@ -43,12 +42,13 @@ TALUS_LANE BodyDelta choose(Mask m, const BodyDelta& yes, const BodyDelta& no) {
 
 TALUS_LANE void put_warm_starts(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
                                 const BodyWarmStart& w) {
-    scatter(state.warm_starts.data, bodies, 0, lanes, {w.linear.x, w.linear.y, w.linear.z, w.shift_x});
-    scatter(state.warm_starts.data, bodies, 1, lanes, {w.angular.x, w.angular.y, w.angular.z, w.shift_y});
-    scatter(state.warm_starts.data, bodies, 2, lanes,
-            {w.linear_before.x, w.linear_before.y, w.linear_before.z, w.shift_z});
-    scatter(state.warm_starts.data, bodies, 3, lanes,
-            {w.angular_before.x, w.angular_before.y, w.angular_before.z, w.reserved});
+    scatter(state.warm_starts.data, bodies, 0, lanes, {w.linear.x, w.linear.y, w.linear.z, w.reserved_1});
+    scatter(state.warm_starts.data, bodies, 1, lanes, {w.angular.x, w.angular.y, w.angular.z, w.reserved_2});
+}
+
+TALUS_LANE void put_hits(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes, const BodyHits& h) {
+    scatter(state.hits.data, bodies, 0, lanes, {h.shift.x, h.shift.y, h.shift.z, h.reserved_1});
+    scatter(state.hits.data, bodies, 1, lanes, {h.load.x, h.load.y, h.load.z, h.reserved_2});
 }
 
 TALUS_LANE BodyProperties properties_at(const CpuState& state, const std::uint32_t* bodies) {
@@ -492,7 +492,9 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t tick, 
         velocity = limited;
         const vec3 falling = falling_acceleration(velocity, warm, batch.properties, batch.inertia, batch.load, batch.h,
                                                   state.parameters);
-        delta = integrate_position(delta, warm, velocity, falling, batch.h);
+        vec3 shift(glm::vec3(0.0f));
+        if (state.keeps_hits()) shift = three_of(gather(state.hits.data, batch.indices, 0));
+        delta = integrate_position(delta, shift, velocity, falling, batch.h);
     }
     std::uint32_t unusual = 0;
     if (going_on != 0) {
@@ -501,9 +503,8 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t tick, 
         velocity = integrate_velocity(velocity, warm, rotation, batch.properties, batch.inertia, batch.load,
                                       batch.rigid, batch.h, state.parameters);
         unusual = going_on & ~bits_of(is_finite3(velocity.linear) && is_finite3(velocity.angular));
-        warm.linear_before = velocity.linear;
-        warm.angular_before = velocity.angular;
-        put_warm_starts(state, batch.indices, going_on & ~unusual, warm);
+        if (state.keeps_hits()) put_hits(state, batch.indices, going_on & ~unusual, no_hits(warm));
+        put_warm_starts(state, batch.indices, going_on & ~unusual, kept_warm_start(warm, velocity));
         scatter(state.velocities.data, batch.offsets, 0, going_on & ~unusual,
                 {velocity.linear.x, velocity.linear.y, velocity.linear.z, velocity.inverse_mass});
         scatter(state.velocities.data, batch.offsets, 1, going_on & ~unusual,

@@ -65,5 +65,5 @@ void main()
     if (is_in_launched_bodies(inertia))
         launched_bodies[atomicAdd(counters[k_counter_launched_bodies], 1u)] = body;
     deltas[body] = pack(no_delta());
-    warm_starts[body] = pack(no_warm_start(unpack(velocities[body])));
+    warm_starts[body] = pack(kept_warm_start(no_warm_start(), unpack(velocities[body])));
 }

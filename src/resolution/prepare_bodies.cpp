@@ -39,7 +39,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
             state.launched_bodies[place] = body;
         }
         state.deltas[body] = no_delta();
-        state.warm_starts[body] = no_warm_start(state.velocities[body]);
+        state.warm_starts[body] = kept_warm_start(no_warm_start(), state.velocities[body]);
     });
 }
 

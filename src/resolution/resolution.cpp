@@ -131,7 +131,9 @@ void solve(Device& device, const StepPlan& plan) {
     if (!plan.needs_launches() || plan.substep_capacity == 0 || plan.persistent_groups > 0) return;
     for_each_pass(
         plan.substep_capacity, plan.iterations, plan.relax,
-        [&](uint tick) { device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {tick}}); },
+        [&](uint tick) {
+            device.run({.kernel = integrate_bodies, .slot = k_dispatch_bodies, .args = {tick, plan.bounces}});
+        },
         [&](ContactPass pass, uint tick) { pass_over_contacts(device, plan, pass, tick); });
 }
 

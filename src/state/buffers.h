@@ -76,7 +76,8 @@ namespace talus::engine {
     X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
     X(LaunchedBodies, launched_bodies, uint, "u", Scratch)                                                             \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
-    X(WarmStarts, warm_starts, BodyWarmStart, "ffffffffffffffff", Result)                                              \
+    X(WarmStarts, warm_starts, BodyWarmStart, "ffffffff", Result)                                                      \
+    X(Hits, hits, BodyHits, "ffffffff", Result)                                                                        \
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
     X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffuffffffffffffffffffffffffffffffffffffffffffff", \
       Result)                                                                                                          \

@@ -85,16 +85,21 @@ struct BodyDelta {
     vec4 rotation; // world, from the rotation at the start of the step to the present one
 };
 
-// 64 bytes. What contacts do to a body's velocity in one sub-step, so that the next sub-step can start from it.
+// 32 bytes. What contacts do to a body's velocity in one sub-step, so that the next sub-step can start from it.
 struct BodyWarmStart {
-    vec3 linear; // m/s: the sum of all accumulated impulses at the body over its mass
-    float shift_x; // m: what hits add to the sub-step's movement
+    vec3 linear; // m/s: the sum of all accumulated impulses at the body over its mass; in the buffer less the velocity before the
+                 // sub-step's contacts, so that to add the one behind them makes it the next sub-step's
+    float reserved_1;
     vec3 angular; // rad/s
-    float shift_y;
-    vec3 linear_before; // m/s: the velocity before the sub-step's contacts
-    float shift_z;
-    vec3 angular_before; // rad/s
-    float reserved;
+    float reserved_2;
+};
+
+// 32 bytes. What hits have to know of a body. Kept where something bounces.
+struct BodyHits {
+    vec3 shift; // m: what they add to the sub-step's movement
+    float reserved_1;
+    vec3 load; // m/s: what contacts have changed about the body in the last sub-step, but for hits
+    float reserved_2;
 };
 
 // 32 bytes. World inverse inertia at the start of the step: a symmetric matrix.

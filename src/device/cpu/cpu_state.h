@@ -25,6 +25,11 @@ struct CpuState {
 #undef X
     Parameters parameters{};
 
+    /// Whether what hits have to know of bodies has room, as it has where something bounces, or once did.
+    bool keeps_hits() const {
+        return hits.size >= parameters.body_count;
+    }
+
     /// The buffer that a parameterised kernel's block stands for. Only for buffers of words.
     Array<uint> words(BufferId) const;
 
