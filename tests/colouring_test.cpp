@@ -442,7 +442,7 @@ TEST_P(Graphs, that_last_have_the_colours_of_new_ones) {
 }
 
 TEST_P(Graphs, last_where_points_come_and_go) {
-    const scenes::Scene heap = scenes::make_scene("pool:boxes=12,seed=1"); // where some do at rest
+    const scenes::Scene heap = scenes::make_scene("pool:boxes=24,seed=11"); // where some do at rest
     World lasting = make_world(heap.settings), in_one_go = make_world(heap.settings);
     World made_anew = make_world(heap.settings);
     for (World* world : {&lasting, &in_one_go, &made_anew}) {

@@ -4,8 +4,8 @@
 //   bool is_own(BodyInertia inertia), whether the kernel solves such a body
 //   BodyVelocity load_settled_velocity(uint slot, uint its_traits), once all contacts of the sub-step before are passed over
 //   void store_delta(uint body, uint slot, BodyDelta delta)
-//   bool some_bounce(), whether there may be a restitution above 0
-// and it declares Properties, Loads, Inertias, WarmStarts, Hits and Counters. The CPU's counterpart is body_passes.h.
+//   bool some_bounce(), whether there may be a restitution above 0, with stored_hits.glsl or no_hits.glsl
+// and it declares Properties, Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Hits, Deltas.
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
@@ -49,7 +49,7 @@ void integrate_body(uint body, uint tick)
                 poses[body] = pack(pose);
                 atomicAdd(counters[k_counter_frozen_bodies], 1u);
             }
-            if (some_bounce()) hits[body] = pack(no_hits(warm));
+            if (some_bounce()) store_hits(body, no_hits(warm));
             warm_starts[body] = pack(kept_warm_start(warm, velocity));
             store_velocity(slot, velocity);
         }

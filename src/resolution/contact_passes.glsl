@@ -4,19 +4,18 @@
 //   BodyVelocity load_velocity(uint slot)
 //   void store_velocity(uint slot, BodyVelocity velocity)
 //   BodyDelta load_delta(uint body, uint slot)
-//   const bool k_bounces, whether there may be a restitution above 0
+//   const bool k_bounces, whether there may be a restitution above 0; stored_hits.glsl if so, else no_hits.glsl
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 //   const bool k_multirate_islands, whether a body may have more sub-steps than a contact of it
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
-// Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts, Hits.
+// Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts; Hits where something bounces.
 
 layout(std430) buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
-layout(std430) coherent buffer Hits { BodyHitsCells hits[]; };
 
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
 BodyWarmStart load_warm_start(uint body)
@@ -25,11 +24,9 @@ BodyWarmStart load_warm_start(uint body)
     return unpack(warm);
 }
 
-BodyHits load_hits(uint body)
-{
-    BodyHitsCells its_hits = hits[body];
-    return unpack(its_hits);
-}
+// stored_hits.glsl or no_hits.glsl
+BodyHits load_hits(uint body);
+void store_hits(uint body, BodyHits its_hits);
 
 bool some_bounce() { return k_bounces; }
 
@@ -136,8 +133,7 @@ void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
     if (before.inverse_mass == 0.0) return;
     BodyWarmStart warm = load_warm_start(body);
     warm_starts[body] = pack(leave_out(warm, before, after));
-    BodyHits its_hits = load_hits(body);
-    hits[body] = pack(take_hit(its_hits, before, after, time));
+    store_hits(body, take_hit(load_hits(body), before, after, time));
     groupMemoryBarrier(); // the body's own invocation reads it
 }
 

@@ -19,7 +19,6 @@ layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
-layout(std430) buffer Hits { BodyHitsCells hits[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
 uint slot_of(uint body) { return body; }
@@ -27,7 +26,6 @@ BodyVelocity load_velocity(uint body) { return unpack(velocities[body]); }
 BodyDelta load_delta(uint body, uint slot) { return unpack(deltas[body]); }
 void store_delta(uint body, uint slot, BodyDelta delta) { deltas[body] = pack(delta); }
 BodyWarmStart load_warm_start(uint body) { return unpack(warm_starts[body]); }
-BodyHits load_hits(uint body) { return unpack(hits[body]); }
 bool some_bounce() { return args.y == 1u; }
 void store_velocity(uint body, BodyVelocity velocity) { velocities[body] = pack(velocity); }
 
@@ -35,6 +33,7 @@ const bool k_multirate_islands = true;
 bool is_own(BodyInertia inertia) { return is_launched(inertia); }
 BodyVelocity load_settled_velocity(uint body, uint its_traits) { return load_velocity(body); }
 
+#include "resolution/stored_hits.glsl"
 #include "resolution/body_passes.glsl"
 
 void main()

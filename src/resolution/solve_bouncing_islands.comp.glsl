@@ -3,3 +3,4 @@
 // as the code of a hit slows the passes by a tenth even where it never runs.
 const bool k_bounces = true;
 #include "resolution/solve_islands.glsl"
+#include "resolution/stored_hits.glsl"

@@ -66,6 +66,7 @@ HubChange load_change(uint i)
     return change;
 }
 
+#include "resolution/no_hits.glsl"
 #include "resolution/contact_passes.glsl"
 #include "resolution/move_hubs.glsl"
 uint meeting_groups() { return gl_NumWorkGroups.x; }
