@@ -120,7 +120,6 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     plan.overflow = true;
     plan.substep_capacity = plan.most_substeps;
     Device& cpu = simulation.state_device();
-    if (plan.bounces) simulation.reserve_hits();
     const Parameters parameters = make_parameters(settings, plan);
     cpu.set_parameters(parameters);
     gpu->set_parameters(parameters);

@@ -219,10 +219,6 @@ void Simulation::reserve_bodies(uint count) {
     body_capacity = capacity;
 }
 
-void Simulation::reserve_hits() {
-    grow_everywhere(BufferId::Hits, body_capacity);
-}
-
 void Simulation::reserve_pairs(uint count) {
     grow_pairs(count);
     grow_manifolds(count);
@@ -462,7 +458,6 @@ void Simulation::enqueue(Pending entry) {
                                   "step takes others, with the same bits"
                                 : "the quickest kernels are ready");
     newest_plan = now;
-    if (now.bounces) reserve_hits();
     const Parameters parameters = make_parameters(settings, now);
     placement.detection->set_parameters(parameters);
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);

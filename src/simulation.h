@@ -60,7 +60,6 @@ public:
 
     /// Makes room for body slots.
     void reserve_bodies(uint count);
-    void reserve_hits(); ///< For all body slots that there is room for; where something bounces.
     /// `elements`: records of the buffer's type, for the body slots from `first` on. Needs settle() before.
     template <typename T> void write(BufferId buffer, std::size_t first, std::span<const T> elements) {
         write_bytes(buffer, first * sizeof(T), std::as_bytes(elements));

@@ -6,7 +6,7 @@
 //   void store_delta(uint body, uint slot, BodyDelta delta)
 //   bool some_bounce(), whether there may be a restitution above 0, with stored_hits.glsl or no_hits.glsl
 // and it declares Properties, Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
-// Reads: Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Hits, Deltas.
+// Reads: Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "device/cpu/cpu_state.h"
+#include "resolution/stored_hits.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -29,7 +29,7 @@ inline void integrate_body(CpuState& state, uint body, uint tick) {
         warm = leave_out(warm, velocity, limited);
         velocity = limited;
         const vec3 falling = falling_acceleration(velocity, warm, properties, inertia, load, h, state.parameters);
-        const vec3 shift = state.keeps_hits() ? state.hits[body].shift : vec3(0.0f);
+        const vec3 shift = state.some_bounce ? hits_of(state, body).shift : vec3(0.0f);
         delta = integrate_position(delta, shift, velocity, falling, h);
     }
     if (substep == inertia.substeps) return;
@@ -44,7 +44,7 @@ inline void integrate_body(CpuState& state, uint body, uint tick) {
         pose.flags |= k_body_frozen;
         std::atomic_ref(state.counters[k_counter_frozen_bodies]).fetch_add(1);
     }
-    if (state.keeps_hits()) state.hits[body] = no_hits(warm);
+    if (state.some_bounce) put_hits(state, body, no_hits(warm));
     state.warm_starts[body] = kept_warm_start(warm, velocity);
     state.velocities[body] = velocity;
 }

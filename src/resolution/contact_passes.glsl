@@ -9,7 +9,7 @@
 //   const bool k_multirate_islands, whether a body may have more sub-steps than a contact of it
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
-// Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts; Hits where something bounces.
+// Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts.
 
 layout(std430) buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
@@ -26,7 +26,7 @@ BodyWarmStart load_warm_start(uint body)
 
 // stored_hits.glsl or no_hits.glsl
 BodyHits load_hits(uint body);
-void store_hits(uint body, BodyHits its_hits);
+void store_hits(uint body, BodyHits hits);
 
 bool some_bounce() { return k_bounces; }
 

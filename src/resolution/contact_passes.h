@@ -2,7 +2,7 @@
 // The passes over one contact constraint, for the CPU. The GPU's counterpart is contact_passes.glsl.
 #pragma once
 
-#include "device/cpu/cpu_state.h"
+#include "resolution/stored_hits.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -57,8 +57,8 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
                                    const ManifoldRows& rows, const PassTarget& target) {
     const Substep substep =
         make_substep(substeps_of_contact(c.counts), is_against_static(c.traits), c.load_speed, state.parameters);
-    const BodyDelta delta_a = shifted(state.deltas[c.body_a], state.hits[c.body_a].shift);
-    const BodyDelta delta_b = shifted(state.deltas[c.body_b], state.hits[c.body_b].shift);
+    const BodyDelta delta_a = shifted(state.deltas[c.body_a], hits_of(state, c.body_a).shift);
+    const BodyDelta delta_b = shifted(state.deltas[c.body_b], hits_of(state, c.body_b).shift);
     const float h = substep_length(substeps_of_contact(c.counts), state.parameters);
     const auto falling = [&](uint body, const BodyVelocity& velocity) {
         return falling_acceleration(velocity, state.warm_starts[body], state.properties[body], state.inertias[body],
@@ -72,7 +72,7 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     const auto take = [&](uint body, const BodyVelocity& was, const BodyVelocity& is) {
         if (was.inverse_mass == 0.0f) return;
         state.warm_starts[body] = leave_out(state.warm_starts[body], was, is);
-        state.hits[body] = take_hit(state.hits[body], was, is, hit.time);
+        put_hits(state, body, take_hit(hits_of(state, body), was, is, hit.time));
     };
     take(c.body_a, before.velocities.a, hit.velocities.a);
     take(c.body_b, before.velocities.b, hit.velocities.b);
@@ -109,7 +109,7 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint tick, u
         s = solve_manifold(s, rows, target);
         s.impulses.slip = slip.apart;
         const bool is_hit = s.is_hit && (!has_been_hit(c.hit_impulse) ||
-                                         can_be_hit_again(before, state.hits[c.body_a], state.hits[c.body_b]));
+                                         can_be_hit_again(before, hits_of(state, c.body_a), hits_of(state, c.body_b)));
         if (is_hit && pass == ContactPass::Relax) return; // the next step's
         if (is_hit) s = pass_over_hit(state, before, c, rows, target);
         if (!is_finite_pair(s.velocities)) s = before; // what has gone wrong here is kept from the bodies

@@ -17,6 +17,7 @@ static std::vector<uint> bodies_to_integrate(const CpuState& state) {
 
 static void integrate_bodies_on_cpu(CpuState& state, const Launch& launch) {
     const uint tick = launch.args[0], grain = k_parallel_grain / 4 / lane_passes().lanes;
+    state.some_bounce = launch.args[1] != 0;
     BodyBatches& bodies = solver_batches(state).bodies;
     if (tick == 0) {
         bodies.assign(bodies_to_integrate(state));

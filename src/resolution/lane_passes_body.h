@@ -46,9 +46,9 @@ TALUS_LANE void put_warm_starts(const CpuState& state, const std::uint32_t* bodi
     scatter(state.warm_starts.data, bodies, 1, lanes, {w.angular.x, w.angular.y, w.angular.z, w.reserved_2});
 }
 
-TALUS_LANE void put_hits(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes, const BodyHits& h) {
-    scatter(state.hits.data, bodies, 0, lanes, {h.shift.x, h.shift.y, h.shift.z, h.reserved_1});
-    scatter(state.hits.data, bodies, 1, lanes, {h.load.x, h.load.y, h.load.z, h.reserved_2});
+/// Behind all warm starts.
+TALUS_LANE engine::BodyWarmStart* hits_in(const CpuState& state) {
+    return state.warm_starts.data + state.parameters.body_count;
 }
 
 TALUS_LANE BodyProperties properties_at(const CpuState& state, const std::uint32_t* bodies) {
@@ -493,7 +493,7 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t tick, 
         const vec3 falling = falling_acceleration(velocity, warm, batch.properties, batch.inertia, batch.load, batch.h,
                                                   state.parameters);
         vec3 shift(glm::vec3(0.0f));
-        if (state.keeps_hits()) shift = three_of(gather(state.hits.data, batch.indices, 0));
+        if (state.some_bounce) shift = three_of(gather(hits_in(state), batch.indices, 0));
         delta = integrate_position(delta, shift, velocity, falling, batch.h);
     }
     std::uint32_t unusual = 0;
@@ -503,7 +503,13 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t tick, 
         velocity = integrate_velocity(velocity, warm, rotation, batch.properties, batch.inertia, batch.load,
                                       batch.rigid, batch.h, state.parameters);
         unusual = going_on & ~bits_of(is_finite3(velocity.linear) && is_finite3(velocity.angular));
-        if (state.keeps_hits()) put_hits(state, batch.indices, going_on & ~unusual, no_hits(warm));
+        if (state.some_bounce) {
+            const BodyHits hits = no_hits(warm);
+            scatter(hits_in(state), batch.indices, 0, going_on & ~unusual,
+                    {hits.shift.x, hits.shift.y, hits.shift.z, hits.reserved_1});
+            scatter(hits_in(state), batch.indices, 1, going_on & ~unusual,
+                    {hits.load.x, hits.load.y, hits.load.z, hits.reserved_2});
+        }
         put_warm_starts(state, batch.indices, going_on & ~unusual, kept_warm_start(warm, velocity));
         scatter(state.velocities.data, batch.offsets, 0, going_on & ~unusual,
                 {velocity.linear.x, velocity.linear.y, velocity.linear.z, velocity.inverse_mass});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instead of stored_hits.glsl, for kernels in which nothing bounces: they have no room for another buffer.
+// Instead of stored_hits.glsl, for kernels in which nothing bounces.
 
 BodyHits load_hits(uint body) { return no_hits(no_warm_start()); }
-void store_hits(uint body, BodyHits its_hits) {}
+void store_hits(uint body, BodyHits hits) {}

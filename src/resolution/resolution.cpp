@@ -111,6 +111,7 @@ const Kernel& single_solver(const StepPlan& plan) {
 }
 
 void solve(Device& device, const StepPlan& plan) {
+    if (plan.bounces) device.grow(BufferId::WarmStarts, 2 * device.size(BufferId::Velocities)); // for BodyHits, too
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
     const Kernel& persistent = persistent_solver(plan);
     if (plan.persistent_groups > 0 && plan.needs_launches()) {
@@ -125,8 +126,11 @@ void solve(Device& device, const StepPlan& plan) {
     }
     if (plan.in_groups) {
         if (plan.singles)
-            device.run({.kernel = single_solver(plan), .slot = k_dispatch_islands, .overlaps_next = true});
-        device.run({.kernel = group_solver(plan), .slot = k_dispatch_islands});
+            device.run({.kernel = single_solver(plan),
+                        .slot = k_dispatch_islands,
+                        .args = {plan.bounces},
+                        .overlaps_next = true});
+        device.run({.kernel = group_solver(plan), .slot = k_dispatch_islands, .args = {plan.bounces}});
     }
     if (!plan.needs_launches() || plan.substep_capacity == 0 || plan.persistent_groups > 0) return;
     for_each_pass(

@@ -33,7 +33,8 @@ void solve_groups(CpuState& state, const std::function<IslandPlaces(uint group)>
         2);
 }
 
-void solve_island_groups_on_cpu(CpuState& state, const Launch&) {
+void solve_island_groups_on_cpu(CpuState& state, const Launch& launch) {
+    state.some_bounce = launch.args[0] != 0;
     solve_groups(state, [&](uint group) {
         const uint first = (group - 1) * k_group_window;
         return IslandPlaces{group, first, min(first + k_group_room, state.parameters.body_count)};

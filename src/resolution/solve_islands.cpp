@@ -99,7 +99,8 @@ void solve_together(CpuState& state, IslandMemory& memory, const IslandWork& isl
     memory.give_back(std::move(batches));
 }
 
-void solve_islands_on_cpu(CpuState& state, const Launch&) {
+void solve_islands_on_cpu(CpuState& state, const Launch& launch) {
+    state.some_bounce = launch.args[0] != 0;
     IslandMemory& memory = island_memory(state);
     const std::vector<IslandWork> parts = collect_islands(state);
     state.parallel(

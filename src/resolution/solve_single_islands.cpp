@@ -5,7 +5,8 @@
 
 namespace talus::engine {
 
-void solve_single_islands_on_cpu(CpuState& state, const Launch&) {
+void solve_single_islands_on_cpu(CpuState& state, const Launch& launch) {
+    state.some_bounce = launch.args[0] != 0;
     solve_groups(state, [&](uint group) {
         const uint place = (group - 1) * k_group_window;
         const uint body = state.island_bodies[place];

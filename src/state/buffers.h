@@ -77,7 +77,6 @@ namespace talus::engine {
     X(LaunchedBodies, launched_bodies, uint, "u", Scratch)                                                             \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffff", Result)                                                      \
-    X(Hits, hits, BodyHits, "ffffffff", Result)                                                                        \
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
     X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffuffffffffffffffffffffffffffffffffffffffffffff", \
       Result)                                                                                                          \

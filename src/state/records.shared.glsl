@@ -94,7 +94,7 @@ struct BodyWarmStart {
     float reserved_2;
 };
 
-// 32 bytes. What hits have to know of a body. Kept where something bounces.
+// 32 bytes. What hits have to know of a body. Where something bounces these lie behind the warm starts of all bodies, in their buffer.
 struct BodyHits {
     vec3 shift; // m: what they add to the sub-step's movement
     float reserved_1;

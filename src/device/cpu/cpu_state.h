@@ -25,11 +25,6 @@ struct CpuState {
 #undef X
     Parameters parameters{};
 
-    /// Whether what hits have to know of bodies has room, as it has where something bounces, or once did.
-    bool keeps_hits() const {
-        return hits.size >= parameters.body_count;
-    }
-
     /// The buffer that a parameterised kernel's block stands for. Only for buffers of words.
     Array<uint> words(BufferId) const;
 
@@ -45,6 +40,7 @@ struct CpuState {
     }
 
     const CpuThreads* threads = nullptr;
+    bool some_bounce = false; ///< so that hits are kept, as the launch says that solves
     // What twins keep from launch to launch:
     std::shared_ptr<class SweepMemory> sweep_memory;      ///< sweep_pairs
     std::shared_ptr<struct SolverBatches> solver_batches; ///< integrate_bodies, solve_contacts
