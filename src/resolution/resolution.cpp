@@ -21,12 +21,13 @@ static uint manifold_key_bits(const StepPlan& plan) {
 }
 
 /// Launches a kernel whose items are manifolds in the order of colours, for some pairs after the others: for those with
-/// indices from args[0] on, args[1] of them. args[2] is 1 where islands may be multirate.
-static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel& kernel) {
+/// indices from args[0] on, args[1] of them. args[2] is 1 where islands may be multirate. `overlaps_next`: of the last of them.
+static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel& kernel, bool overlaps_next = false) {
     for (uint first = 0; first < plan.pair_capacity; first += plan.near_pairs)
         device.run({.kernel = kernel,
                     .slot = k_dispatch_manifolds,
-                    .args = {first, plan.near_pairs, plan.may_be_multirate()}});
+                    .args = {first, plan.near_pairs, plan.may_be_multirate()},
+                    .overlaps_next = overlaps_next && plan.pair_capacity - first <= plan.near_pairs});
 }
 
 /// The islands of a large world, and which of them a work group solves.
@@ -142,7 +143,8 @@ void solve(Device& device, const StepPlan& plan) {
 }
 
 void store_impulses(Device& device, const StepPlan& plan) {
-    run_on_near_pairs(device, plan, store_contact_impulses);
+    // What ends the step for bodies needs nothing of it; contact events do.
+    run_on_near_pairs(device, plan, store_contact_impulses, plan.watch == ContactWatch::None);
 }
 
 } // namespace talus::engine
