@@ -67,7 +67,6 @@ void Simulation::restore(const SavedState& saved) {
     settle();
     const auto pair_count = static_cast<uint>(saved.manifolds.size());
     reserve_bodies(saved.table.slot_count());
-    grow_pairs(pair_count);
     if (!saved.rests.empty()) grow_everywhere(BufferId::Rests, body_capacity);
 
     std::vector<Pair> pairs;
@@ -88,7 +87,7 @@ void Simulation::restore(const SavedState& saved) {
         }
         if (is_active(manifold) && !sleeps(manifold)) constraints.push_back(constraint); // others are not solved
     }
-    grow_manifolds(static_cast<uint>(constraints.size()));
+    grow_contacts(pair_count, static_cast<uint>(constraints.size()));
     const auto write_all = [this](BufferId buffer, const auto& records) {
         if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));
     };
@@ -116,7 +115,7 @@ void Simulation::restore(const SavedState& saved) {
 
     finished_count = saved.report.step;
     newest_report = saved.report;
-    solved_count = static_cast<uint>(constraints.size());
+    solved_count = kept_count = static_cast<uint>(constraints.size());
     plan.most_launched = k_none;
     pairs_last.begin_anew();
     list_lasts.begin_anew();
