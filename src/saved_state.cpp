@@ -96,7 +96,7 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::OldManifoldPoints, points);
     write_all(BufferId::OldPointSeparations, saved.separations);
     write_all(BufferId::OldPointImpulses, saved.next_impulses);
-    write_all(BufferId::Constraints, constraints);
+    state_device().write(BufferId::Constraints, 0, std::as_bytes(std::span(constraints)));
     write_all(BufferId::Counters, saved.counters);
     write_all(BufferId::Starts, saved.starts);
     write_all(BufferId::Rests, saved.rests);

@@ -221,8 +221,8 @@ void Simulation::grow_contacts(uint pairs, uint manifolds) {
     for (const BufferId buffer : k_pair_buffers)
         grow_everywhere(buffer, pair_capacity);
     grow_everywhere(BufferId::PairTable, table_size);
-    for (Device* device : {gpu.get(), cpu.get()})
-        if (device != nullptr) device->reserve_contacts(pair_capacity, manifold_capacity, watches_contacts());
+    placement.resolution->reserve_contacts(pair_capacity, manifold_capacity, watches_contacts());
+    if (placement.hybrid()) placement.detection->reserve_contacts(pair_capacity, 0, false); // where nothing is solved
     plan.pair_capacity = pair_capacity; // only now: a buffer may have no room
     plan.manifold_capacity = manifold_capacity;
     plan.table_size = table_size;

@@ -120,17 +120,17 @@ public:
     virtual void read(std::span<const ReadRequest>) = 0;
     virtual void swap(BufferId, BufferId) = 0;
 
-    /// Gives the buffers of contacts and Constraints room for so many pairs and manifolds, or leaves them as they are
-    /// where they have it. From then on a device may have Constraints lie over contacts of which nobody knows anything
-    /// any more: in a step over the old ones, from begin_constraints on, and over the new ones after swap_contacts,
-    /// until the next narrow phase writes these. What does not lie under Constraints keeps its content, and Constraints
-    /// keep theirs. `keeps_old`: nothing ever lies over the old ones, as the end of a step reads them.
+    /// Gives the buffers of contacts, and Constraints, room for at least so many pairs and manifolds. From then on they
+    /// grow and are swapped together, and Constraints may lie over contacts that nobody wants any more: from
+    /// begin_constraints on over the old ones, and from swap_contacts on over the new ones, until kernels write these.
+    /// Constraints and what they do not lie over keep their content. `keeps_old`: they never lie over the old ones, as
+    /// the end of a step reads them; that holds for good.
     virtual void reserve_contacts(uint pairs, uint manifolds, bool keeps_old);
-    /// Kernels that are given from here on write Constraints, and may not read the old contacts.
+    /// Kernels that are given from here on write Constraints; those that read the old contacts need keeps_old.
     virtual void begin_constraints() {}
-    /// Whether nothing has been written over the old contacts since.
+    /// Whether nothing may have been written over the old contacts.
     virtual bool has_old_contacts() const { return true; }
-    /// The step's contacts become the old ones, and these make place for new ones.
+    /// The new contacts become the old ones, and these make place for new ones.
     virtual void swap_contacts();
 
     virtual void set_parameters(const Parameters&) = 0;

@@ -25,10 +25,6 @@ bool is_one_of(const auto& buffers, BufferId id) {
 
 } // namespace
 
-bool ContactRoom::holds(BufferId id) {
-    return id == BufferId::Constraints || is_one_of(k_contact_buffers, id) || is_one_of(k_old_contact_buffers, id);
-}
-
 void ContactRoom::fit(uint pairs, uint manifolds, bool keeps_old) {
     pairs_ = std::max({pairs, pairs_, 1u});
     manifolds_ = std::max({manifolds, manifolds_, 1u});

@@ -16,6 +16,17 @@
 
 namespace talus::engine {
 
+/// What lies in it.
+inline constexpr auto k_room_buffers = [] {
+    std::array<BufferId, 2 * k_contact_buffers.size() + 1> all{};
+    for (std::size_t i = 0; i < k_contact_buffers.size(); ++i) {
+        all[2 * i] = k_contact_buffers[i];
+        all[2 * i + 1] = k_old_contact_buffers[i];
+    }
+    all.back() = BufferId::Constraints;
+    return all;
+}();
+
 class ContactRoom {
 public:
     /// Bytes of the buffer.
@@ -28,18 +39,15 @@ public:
     /// and none is empty.
     ContactRoom(uint pairs, uint manifolds, bool keeps_old) { fit(pairs, manifolds, keeps_old); }
 
-    static bool holds(BufferId);
-
     std::size_t bytes() const;
     Place place(BufferId) const;
     /// Whether the constraints lie over it, so that its content means nothing.
     bool is_covered(BufferId) const;
-    bool keeps_old() const { return keeps_old_; }
 
     /// Room for at least so many, with the same arrays at the start and the same ones covered. Once the old contacts
     /// are kept they remain so.
     ContactRoom grown(uint pairs, uint manifolds, bool keeps_old) const;
-    /// Whether all places begin where they do in the other one, and have the same buffer around them.
+    /// Whether everything begins where it does in the other one, in a buffer as long.
     bool has_places_of(const ContactRoom&) const;
 
     void begin_constraints() { over_old_ = true; }

@@ -146,10 +146,7 @@ void GlDevice::reserve_contacts(uint pairs, uint manifolds, bool keeps_old) {
     std::optional<ContactRoom>& room = objects_->room;
     const ContactRoom wanted =
         room ? room->grown(pairs, manifolds, keeps_old) : ContactRoom(pairs, manifolds, keeps_old);
-    std::vector<BufferId> held{BufferId::Constraints};
-    held.insert(held.end(), k_contact_buffers.begin(), k_contact_buffers.end());
-    held.insert(held.end(), k_old_contact_buffers.begin(), k_old_contact_buffers.end());
-    for (const BufferId id : held)
+    for (const BufferId id : k_room_buffers)
         check_block_size(id, wanted.place(id).bytes);
     if (room && wanted.has_places_of(*room)) {
         room = wanted; // there may be more room for constraints over the same arrays
@@ -159,15 +156,15 @@ void GlDevice::reserve_contacts(uint pairs, uint manifolds, bool keeps_old) {
     order_after_kernels();
     GlBuffer grown("Contacts", wanted.bytes());
     grown.zero(0, grown.size());
-    for (const BufferId id : held) {
-        if (wanted.is_covered(id)) continue;
+    for (const BufferId id : k_room_buffers) {
+        if (wanted.is_covered(id) || (room && room->is_covered(id))) continue;
         const GlRange from = gl_range(id);
         const ContactRoom::Place to = wanted.place(id);
         glCopyNamedBufferSubData(from.buffer, grown.name(), static_cast<GLintptr>(from.offset),
                                  static_cast<GLintptr>(to.offset),
                                  static_cast<GLsizeiptr>(std::min<std::size_t>(from.size, to.bytes)));
     }
-    for (const BufferId id : held)
+    for (const BufferId id : k_room_buffers)
         objects_->buffers[static_cast<std::size_t>(id)] = GlBuffer();
     objects_->contacts = std::move(grown);
     room = wanted;
@@ -379,7 +376,13 @@ void GlDevice::make_current() {
 }
 
 bool GlDevice::is_in_room(BufferId id) const {
-    return objects_->room && ContactRoom::holds(id);
+    static constexpr auto lies_in_room = [] {
+        std::array<bool, k_buffers.size()> lies{};
+        for (const BufferId buffer : k_room_buffers)
+            lies[static_cast<std::size_t>(buffer)] = true;
+        return lies;
+    }();
+    return objects_->room && lies_in_room[static_cast<std::size_t>(id)];
 }
 
 GlBuffer& GlDevice::buffer(BufferId id) const {
