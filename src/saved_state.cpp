@@ -49,7 +49,7 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
     saved.counters[k_counter_body_count] = std::min(saved.counters[k_counter_body_count], table.slot_count());
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
         const std::size_t first = 4 * i, end = first + contacts.manifolds[i].point_count;
-        if (end == first) contacts.separations[i] = {}; // it is of an earlier step
+        if (end == first) contacts.separations[i] = {}; // nobody has written it
         for (std::size_t k = first; k < end; ++k) {
             saved.points.push_back(contacts.points[k]);
             saved.impulses.push_back(contacts.impulses[k]);
