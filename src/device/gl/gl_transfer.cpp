@@ -55,7 +55,7 @@ void ReadBack::read(std::span<const Request> requests) {
     GlFence::place().wait();
     place = 0;
     for (const Request& request : requests) {
-        std::memcpy(request.destination, buffer_.mapped() + place, request.bytes);
+        if (request.bytes > 0) std::memcpy(request.destination, buffer_.mapped() + place, request.bytes);
         place += aligned(request.bytes);
     }
 }
