@@ -49,7 +49,7 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
     saved.counters[k_counter_body_count] = std::min(saved.counters[k_counter_body_count], table.slot_count());
     for (std::size_t i = 0; i < contacts.manifolds.size(); ++i) {
         const std::size_t first = 4 * i, end = first + contacts.manifolds[i].point_count;
-        if (end == first) contacts.separations[i] = {}; // it is of an earlier step
+        if (end == first) contacts.separations[i] = {}; // nobody has written it
         for (std::size_t k = first; k < end; ++k) {
             saved.points.push_back(contacts.points[k]);
             saved.impulses.push_back(contacts.impulses[k]);
@@ -67,7 +67,6 @@ void Simulation::restore(const SavedState& saved) {
     settle();
     const auto pair_count = static_cast<uint>(saved.manifolds.size());
     reserve_bodies(saved.table.slot_count());
-    grow_pairs(pair_count);
     if (!saved.rests.empty()) grow_everywhere(BufferId::Rests, body_capacity);
 
     std::vector<Pair> pairs;
@@ -88,7 +87,7 @@ void Simulation::restore(const SavedState& saved) {
         }
         if (is_active(manifold) && !sleeps(manifold)) constraints.push_back(constraint); // others are not solved
     }
-    grow_manifolds(static_cast<uint>(constraints.size()));
+    grow_contacts(pair_count, static_cast<uint>(constraints.size()));
     const auto write_all = [this](BufferId buffer, const auto& records) {
         if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));
     };
@@ -97,7 +96,7 @@ void Simulation::restore(const SavedState& saved) {
     write_all(BufferId::OldManifoldPoints, points);
     write_all(BufferId::OldPointSeparations, saved.separations);
     write_all(BufferId::OldPointImpulses, saved.next_impulses);
-    write_all(BufferId::Constraints, constraints);
+    state_device().write(BufferId::Constraints, 0, std::as_bytes(std::span(constraints)));
     write_all(BufferId::Counters, saved.counters);
     write_all(BufferId::Starts, saved.starts);
     write_all(BufferId::Rests, saved.rests);
@@ -116,7 +115,7 @@ void Simulation::restore(const SavedState& saved) {
 
     finished_count = saved.report.step;
     newest_report = saved.report;
-    solved_count = static_cast<uint>(constraints.size());
+    solved_count = kept_count = static_cast<uint>(constraints.size());
     plan.most_launched = k_none;
     pairs_last.begin_anew();
     list_lasts.begin_anew();

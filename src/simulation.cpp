@@ -52,20 +52,9 @@ constexpr std::array k_body_buffers{
 
 constexpr std::array k_pair_buffers{
     BufferId::Pairs,
-    BufferId::OldManifolds,
-    BufferId::OldPointImpulses,
-    BufferId::Manifolds,
-    BufferId::PointImpulses,
     BufferId::Uncoloured,
     BufferId::ManifoldKeys,
     BufferId::ManifoldOrder,
-    BufferId::PointSeparations,
-    BufferId::OldPointSeparations,
-};
-
-constexpr std::array k_point_buffers{
-    BufferId::OldManifoldPoints,
-    BufferId::ManifoldPoints,
 };
 
 constexpr std::array k_report_buffers{
@@ -220,29 +209,24 @@ void Simulation::reserve_bodies(uint count) {
 }
 
 void Simulation::reserve_pairs(uint count) {
-    grow_pairs(count);
-    grow_manifolds(count);
+    grow_contacts(count, count);
 }
 
-void Simulation::grow_pairs(uint count) {
-    if (count > k_most_pairs)
-        throw Error(fmt::format("{} pairs of bodies are too many; at most {} are allowed", count, k_most_pairs));
-    const uint capacity = std::max(count, plan.pair_capacity);
-    const uint table_size = std::bit_ceil(2 * capacity);
+void Simulation::grow_contacts(uint pairs, uint manifolds) {
+    if (pairs > k_most_pairs)
+        throw Error(fmt::format("{} pairs of bodies are too many; at most {} are allowed", pairs, k_most_pairs));
+    const uint pair_capacity = std::max(pairs, plan.pair_capacity);
+    const uint manifold_capacity = std::max(manifolds, plan.manifold_capacity);
+    const uint table_size = std::bit_ceil(2 * pair_capacity);
     for (const BufferId buffer : k_pair_buffers)
-        grow_everywhere(buffer, capacity);
-    for (const BufferId buffer : k_point_buffers)
-        grow_everywhere(buffer, std::size_t{4} * capacity);
+        grow_everywhere(buffer, pair_capacity);
     grow_everywhere(BufferId::PairTable, table_size);
-    plan.pair_capacity = capacity; // only now: a buffer may have no room
+    placement.resolution->reserve_contacts(pair_capacity, manifold_capacity, watches_contacts());
+    if (placement.hybrid()) placement.detection->reserve_contacts(pair_capacity, 0, false); // where nothing is solved
+    plan.pair_capacity = pair_capacity; // only now: a buffer may have no room
+    plan.manifold_capacity = manifold_capacity;
     plan.table_size = table_size;
-    if (plan.watch != ContactWatch::None) reserve_reports();
-}
-
-void Simulation::grow_manifolds(uint count) {
-    const uint capacity = std::max(count, plan.manifold_capacity);
-    grow_everywhere(BufferId::Constraints, capacity);
-    plan.manifold_capacity = capacity;
+    if (watches_contacts()) reserve_reports();
 }
 
 void Simulation::reserve_reports() {
@@ -258,7 +242,7 @@ void Simulation::watch_contacts(ContactWatch wanted) {
     plan.watch = wanted;
     if (!begins) return;
     try {
-        reserve_reports();
+        grow_contacts(0, 0); // the same room, in which the old contacts last to the end of a step; and for reports
     } catch (const Error&) {
         plan.watch = ContactWatch::None;
         throw;
@@ -463,10 +447,23 @@ void Simulation::enqueue(Pending entry) {
     if (placement.hybrid()) placement.resolution->set_parameters(parameters);
     write_body_count(entry.population.slots);
     const std::uint64_t launches_before = launch_count();
-    entry.ticket = engine::step(placement, now, entry.with_poses, entry.changes);
+    try {
+        entry.ticket = engine::step(placement, now, entry.with_poses, entry.changes);
+    } catch (const Error&) {
+        if (launch_count() != launches_before) abandon_step();
+        throw;
+    }
     entry.launches = launch_count() - launches_before;
     entry.broad_phase = now.broad_phase;
     pending.push_back(std::move(entry));
+}
+
+void Simulation::abandon_step() {
+    settle();
+    kept_count = 0;
+    if (placement.resolution->has_old_contacts()) return;
+    forget_contacts();
+    search_anew();
 }
 
 void Simulation::poll() {
@@ -504,6 +501,7 @@ void Simulation::finish_oldest() {
     report.step = finished_count;
     report.pairs = counters[k_counter_pair_count];
     solved_count = counters[k_counter_manifold_count];
+    kept_count = solved_count;
     report.manifolds = solved_count + counters[k_counter_sleeping_manifolds];
     report.sleeping_bodies = counters[k_counter_sleeping_bodies];
     report.contacts = counters[k_counter_contact_count];
@@ -587,7 +585,7 @@ void Simulation::make_room(void (Simulation::*grow)(uint), uint demand, uint wan
 uint Simulation::likely_manifolds(uint pair_count) const {
     const std::uint64_t pairs_before = report().pairs;
     if (pairs_before == 0) return 0;
-    const auto likely = static_cast<uint>(std::uint64_t{solved_manifolds()} * pair_count / pairs_before);
+    const auto likely = static_cast<uint>(std::uint64_t{solved_count} * pair_count / pairs_before);
     return std::min(with_headroom(likely, plan.manifold_capacity), plan.pair_capacity);
 }
 
@@ -608,6 +606,14 @@ void Simulation::mend_velocities() {
         velocities[i].stamp = 0;
     }
     write_bytes(BufferId::Velocities, 0, std::as_bytes(std::span(velocities)));
+}
+
+void Simulation::forget_contacts() {
+    constexpr uint none = 0;
+    write_bytes(BufferId::Counters, k_counter_old_pair_count * sizeof(uint), std::as_bytes(std::span(&none, 1)));
+    newest_report.pairs = newest_report.manifolds = newest_report.contacts = 0;
+    solved_count = kept_count = 0;
+    owed_waking = Waking::All; // what touches what sleeps is not known
 }
 
 void Simulation::redo(std::span<const uint> counters) {
@@ -642,6 +648,7 @@ void Simulation::redo(std::span<const uint> counters) {
                 "tree of the broad phase to the end; the device Cpu does");
         if ((reasons & k_fit_groups) != 0) {
             mend_velocities();
+            if (!watches_contacts()) forget_contacts();
             throw Error(
                 "this GPU did not run work groups, or the invocations of one, side by side as they need, so a step "
                 "went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them meet at barriers instead");
@@ -658,8 +665,10 @@ void Simulation::redo(std::span<const uint> counters) {
             make_room(&Simulation::reserve_hub_manifolds, hub_manifolds,
                       with_headroom(hub_manifolds, plan.hub_capacity));
     } catch (const Error&) {
-        // The world is left as it was before these steps, but for what the caller has changed, and for velocities that
-        // groups which gave up have changed.
+        // The world is left as it was before these steps, but for what the caller has changed, and for what groups
+        // which gave up have changed. Only what the last step's impulses were may be lost, if not what the next one
+        // starts from: new contacts may lie over the constraints.
+        kept_count = 0;
         for (const Pending& entry : again) {
             apply_now(entry.population, entry.changes);
             owed_waking = std::max(owed_waking, entry.population.waking);

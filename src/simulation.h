@@ -101,8 +101,9 @@ public:
     std::uint64_t step_count() const { return finished_count + pending.size(); }
     /// Of the newest finished step.
     const StepReport& report() const { return newest_report; }
-    /// Constraints that the newest finished step has solved.
-    uint solved_manifolds() const { return solved_count; }
+    /// Constraints that the newest finished step has solved, and that still lie on the device: a step that came to
+    /// nothing may have written over them.
+    uint kept_constraints() const { return kept_count; }
     /// Collects what has finished meanwhile, without waiting.
     void poll();
     /// The newest finished step's poses as they came through the ring; empty if it was not asked for them.
@@ -148,13 +149,19 @@ private:
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
-    void grow_pairs(uint count);
-    void grow_manifolds(uint count);
+    void grow_contacts(uint pairs, uint manifolds);
+    void grow_pairs(uint count) { grow_contacts(count, 0); }
+    void grow_manifolds(uint count) { grow_contacts(0, count); }
     /// Room for them, if as many pairs touch as in the newest finished step, so that not each growth brings another.
     uint likely_manifolds(uint pair_count) const;
     /// For what is wanted, or at least for the demand.
     void make_room(void (Simulation::*grow)(uint), uint demand, uint wanted);
     void redo(std::span<const uint> counters);
+    /// Of a step that has been enqueued in part, as a driver could not make one of its kernels.
+    void abandon_step();
+    /// Where a step has begun to solve and came to nothing: its constraints may lie over the contacts of the last one.
+    /// With nothing on its way. The next step starts from no impulses.
+    void forget_contacts();
     /// After a launch whose groups have given up: puts inverse masses back where stamps of it are left.
     void mend_velocities();
     void follow_demand(std::span<const uint> counters);
@@ -188,7 +195,8 @@ private:
     uint window_overflow = 0, window_launched = 0;
     bool window_singles = false;
     StepReport newest_report;
-    uint solved_count = 0;
+    uint solved_count = 0;             ///< manifolds, by the newest finished step
+    uint kept_count = 0;               ///< of their constraints
     Waking owed_waking = Waking::None; ///< of changes before steps that were given up
     Ticket newest_ticket = 0;
     bool newest_has_poses = false;

@@ -31,7 +31,7 @@ ContactRecords read_contacts(Simulation& simulation) {
                             std::vector<NormalImpulses>(pair_count),
                             std::vector<float>(4 * pair_count),
                             std::vector<BodyStart>(device.size(BufferId::Starts) / sizeof(BodyStart))};
-    std::vector<ContactConstraint> constraints(simulation.solved_manifolds());
+    std::vector<ContactConstraint> constraints(simulation.kept_constraints());
     // The step's end has made its manifolds the old ones. Their impulses are what the next step starts from; those of
     // this one are still with the constraints, but for what sleeps.
     device.read(std::array{

@@ -527,7 +527,7 @@ MemoryUse World::memory() const noexcept {
 
 GlBuffers World::gl_buffers() const {
     Device& device = impl_->simulation.detection_device();
-    if (device.gl_name(BufferId::Poses) == 0)
+    if (device.gl_range(BufferId::Poses).buffer == 0)
         throw Error("gl_buffers: the world runs on the CPU, which has no OpenGL buffers");
     const CallersContext callers(impl_->own_context);
     const BodyChanges changes = impl_->take_changes();
@@ -537,17 +537,18 @@ GlBuffers World::gl_buffers() const {
         device.write(BufferId::Poses, 0, std::as_bytes(std::span(impl_->table.poses)));
         device.write(BufferId::Starts, 0, {cpu.host_data(BufferId::Starts), cpu.size(BufferId::Starts)});
     }
+    const auto name_of = [&device](BufferId buffer) { return device.gl_range(buffer).buffer; };
     GlBuffers names;
-    names.poses = device.gl_name(BufferId::Poses);
-    names.starts = device.gl_name(BufferId::Starts);
-    names.shapes = device.gl_name(BufferId::Shapes);
-    names.aabbs = device.gl_name(BufferId::Aabbs);
-    names.pairs = device.gl_name(BufferId::Pairs);
-    names.manifolds = device.gl_name(BufferId::OldManifolds);
-    names.contact_points = device.gl_name(BufferId::OldManifoldPoints);
-    names.point_separations = device.gl_name(BufferId::OldPointSeparations);
-    names.point_impulses = device.gl_name(BufferId::OldPointImpulses);
-    names.counters = device.gl_name(BufferId::Counters);
+    names.poses = name_of(BufferId::Poses);
+    names.starts = name_of(BufferId::Starts);
+    names.shapes = name_of(BufferId::Shapes);
+    names.aabbs = name_of(BufferId::Aabbs);
+    names.pairs = name_of(BufferId::Pairs);
+    names.manifolds = device.gl_range(BufferId::OldManifolds);
+    names.contact_points = device.gl_range(BufferId::OldManifoldPoints);
+    names.point_separations = device.gl_range(BufferId::OldPointSeparations);
+    names.point_impulses = device.gl_range(BufferId::OldPointImpulses);
+    names.counters = name_of(BufferId::Counters);
     names.body_capacity = impl_->table.slot_count();
     names.pair_capacity = impl_->simulation.report().pairs;
     return names;

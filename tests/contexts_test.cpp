@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "device/gl/gl_context.h"
+#include "state/buffers.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
 #include "tests/gl_state.h"
@@ -221,6 +222,33 @@ TEST_P(Contexts, of_the_caller_must_be_current) {
     EXPECT_NE(refusal.find("make it current before each call"), std::string::npos) << refusal;
     EXPECT_EQ(error_of([this] { world->step(); }), "no error");
     world.reset();
+}
+
+TEST_P(Contexts, of_the_caller_find_contacts_where_gl_buffers_says) {
+    const Renderer renderer;
+    gl_context = GlContext::Current;
+    build();
+    for (int i = 0; i < 3; ++i) {
+        world->step(); // by which what is old and what is new change places
+        const GlBuffers buffers = world->gl_buffers();
+        std::vector<engine::Manifold> manifolds(buffers.pair_capacity);
+        std::vector<engine::NormalImpulses> impulses(buffers.pair_capacity);
+        const auto read = [](const GlRange& range, auto& records) {
+            const std::size_t bytes = records.size() * sizeof records[0];
+            ASSERT_LE(bytes, range.size);
+            glGetNamedBufferSubData(range.buffer, static_cast<GLintptr>(range.offset), static_cast<GLsizeiptr>(bytes),
+                                    records.data());
+        };
+        read(buffers.manifolds, manifolds);
+        read(buffers.point_impulses, impulses);
+        const std::vector<Contact> contacts = world->contacts();
+        ASSERT_EQ(contacts.size(), 1u);
+        ASSERT_EQ(manifolds.size(), 1u);
+        EXPECT_EQ(manifolds[0].body_b, contacts[0].b.index);
+        EXPECT_EQ(manifolds[0].point_count, contacts[0].points.size());
+        EXPECT_EQ(manifolds[0].normal.y, contacts[0].normal.y);
+        EXPECT_GT(impulses[0].normal[0], 0.0f);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, Contexts, testing::Values(DeviceKind::Gpu, DeviceKind::Hybrid),

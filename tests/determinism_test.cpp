@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "step_results.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
 #include "tests/engine_run.h"
@@ -337,6 +338,12 @@ TEST_P(Paths, groups_that_wait_in_vain_are_an_error) {
         EXPECT_EQ(velocities[i].inverse_mass, properties[i].inverse_mass) << i;
         EXPECT_EQ(velocities[i].stamp, 0u) << i;
     }
+    EXPECT_EQ(run.counter(engine::k_counter_old_pair_count), 0u) << "constraints have been written over the contacts";
+    EXPECT_TRUE(read_contacts(run.simulation).manifolds.empty());
+    run.step();
+    EXPECT_EQ(run.counter(engine::k_counter_old_pair_count), old_pairs_before);
+    for (const engine::BodyPose& pose : run.read<engine::BodyPose>(engine::BufferId::Poses, run.table.slot_count()))
+        EXPECT_TRUE(std::isfinite(pose.position.y));
 }
 
 TEST_P(Paths, islands_of_a_large_world_have_sub_steps_of_their_own) {

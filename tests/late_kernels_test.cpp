@@ -23,6 +23,7 @@
 #include "scenes/scene.h"
 #include "tests/devices.h"
 #include "tests/engine_run.h"
+#include "tests/stand_in_device.h"
 
 namespace talus::tests {
 namespace {
@@ -41,9 +42,9 @@ constexpr std::array k_solvers{&engine::solve_islands,        &engine::solve_bou
                                &engine::solve_persistent,     &engine::solve_multirate};
 
 /// Another device, of which a test says which solvers are ready. It notes those that it is asked for and that it runs.
-class LateDevice final : public Device {
+class LateDevice final : public StandInDevice {
 public:
-    explicit LateDevice(std::unique_ptr<Device> replaced) : device(std::move(replaced)) {}
+    using StandInDevice::StandInDevice;
 
     std::set<const Kernel*> late;
     std::set<const Kernel*> asked;
@@ -57,8 +58,7 @@ public:
     void run(const Launch& launch) override {
         EXPECT_FALSE(late.contains(&launch.kernel)) << launch.kernel.path << " is not ready";
         if (is_solver(launch.kernel)) ran.insert(&launch.kernel);
-        device->run(launch);
-        launches = device->launch_count();
+        StandInDevice::run(launch);
     }
 
     /// Also on the CPU, which runs one group after the other.
@@ -68,37 +68,10 @@ public:
         return groups == 0 && is_solver(kernel) ? 16 : groups;
     }
 
-    DeviceInfo info() const override { return device->info(); }
-    bool loops_freely() const override { return device->loops_freely(); }
-    void grow(BufferId buffer, std::size_t bytes) override { device->grow(buffer, bytes); }
-    std::size_t size(BufferId buffer) const override { return device->size(buffer); }
-    std::uint64_t memory_bytes() const override { return device->memory_bytes(); }
-    void write(BufferId buffer, std::size_t offset, std::span<const std::byte> bytes) override {
-        device->write(buffer, offset, bytes);
-    }
-    void read(std::span<const engine::ReadRequest> requests) override { device->read(requests); }
-    void swap(BufferId a, BufferId b) override { device->swap(a, b); }
-    void set_parameters(const engine::Parameters& parameters) override { device->set_parameters(parameters); }
-    void prepare(std::span<const Kernel* const> kernels) override { device->prepare(kernels); }
-    void begin_stage(engine::Stage stage) override { device->begin_stage(stage); }
-    Ticket end_step(bool with_poses, uint report_room) override { return device->end_step(with_poses, report_room); }
-    bool finished(Ticket ticket) const override { return device->finished(ticket); }
-    void wait(Ticket ticket) override { device->wait(ticket); }
-    std::span<const uint> counters(Ticket ticket) const override { return device->counters(ticket); }
-    std::span<const engine::BodyPose> poses(Ticket ticket) const override { return device->poses(ticket); }
-    std::span<const engine::ContactReport> reports(Ticket ticket) const override { return device->reports(ticket); }
-    std::span<const double> stage_ms(Ticket ticket) const override { return device->stage_ms(ticket); }
-    void leave() override { device->leave(); }
-    std::byte* host_data(BufferId buffer) override { return device->host_data(buffer); }
-    std::uint32_t gl_name(BufferId buffer) const override { return device->gl_name(buffer); }
-    void make_current() override { device->make_current(); }
-
 private:
     static bool is_solver(const Kernel& kernel) {
         return std::ranges::any_of(k_solvers, [&](const Kernel* solver) { return solver == &kernel; });
     }
-
-    std::unique_ptr<Device> device;
 };
 
 std::vector<BodyDefinition> bodies_of(const char* scene, float restitution) {

@@ -484,12 +484,19 @@ TEST_P(Worlds, name_their_gl_buffers_or_say_that_there_are_none) {
         return;
     }
     const GlBuffers names = world.gl_buffers();
-    std::set<std::uint32_t> different{
-        names.poses,          names.starts,    names.shapes,         names.aabbs,
-        names.pairs,          names.manifolds, names.contact_points, names.point_separations,
-        names.point_impulses, names.counters};
-    EXPECT_EQ(different.size(), 10u);
+    const std::array contacts{names.manifolds, names.contact_points, names.point_separations, names.point_impulses};
+    std::set<std::uint32_t> different{names.poses, names.starts,   names.shapes,      names.aabbs,
+                                      names.pairs, names.counters, contacts[0].buffer};
+    EXPECT_EQ(different.size(), 7u);
     EXPECT_FALSE(different.contains(0));
+    constexpr std::array<std::uint64_t, 4> bytes_a_pair{64, 4 * 16, 32, 16};
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        EXPECT_EQ(contacts[i].buffer, contacts[0].buffer);
+        EXPECT_EQ(contacts[i].offset % 256, 0u) << "a block may begin there";
+        EXPECT_GE(contacts[i].size, bytes_a_pair[i] * names.pair_capacity);
+        if (i == 0) continue;
+        EXPECT_GE(contacts[i].offset, contacts[i - 1].offset + contacts[i - 1].size);
+    }
     EXPECT_EQ(names.body_capacity, 2u);
     world.make_gl_current();
     world.step();

@@ -58,8 +58,16 @@ struct Transfers {
     std::uint64_t waits = 0;     ///< calls that had to wait for steps on their way
 };
 
+/// A part of an OpenGL buffer, as glBindBufferRange takes it.
+struct GlRange {
+    std::uint32_t buffer = 0; ///< its name
+    std::uint64_t offset = 0; ///< bytes, where a storage block may begin on every driver
+    std::uint64_t size = 0;   ///< bytes that there is room for
+    friend bool operator==(const GlRange&, const GlRange&) = default;
+};
+
 /// OpenGL names of the buffers to draw from, without a copy. Valid until the next call that changes the world. Numbers
-/// are little-endian words of 32 bits.
+/// are little-endian words of 32 bits. What is of contacts lies in one buffer, one behind the other.
 struct GlBuffers {
     /// 32 bytes a body: vec3 position (m), uint flags, of which bit 2 is set while the body sleeps, vec4 rotation (x,
     /// y, z, w).
@@ -73,12 +81,12 @@ struct GlBuffers {
     std::uint32_t aabbs = 0;
     /// 8 bytes a pair: uint body a, uint body b; their number is the word `pair_count_word` of `counters`.
     std::uint32_t pairs = 0;
-    std::uint32_t manifolds = 0; ///< 64 bytes a pair, see Manifold in src/state/records.shared.glsl
+    GlRange manifolds; ///< 64 bytes a pair, see Manifold in src/state/records.shared.glsl
     /// Four of 16 bytes a pair, see ManifoldPoint in the same file: an anchor leads from body a's place in `starts` to
     /// the point.
-    std::uint32_t contact_points = 0;
-    std::uint32_t point_separations = 0;                ///< 32 bytes a pair, see Separations in the same file
-    std::uint32_t point_impulses = 0;                   ///< 16 bytes a pair, see NormalImpulses in the same file
+    GlRange contact_points;
+    GlRange point_separations;                          ///< 32 bytes a pair, see Separations in the same file
+    GlRange point_impulses;                             ///< 16 bytes a pair, see NormalImpulses in the same file
     std::uint32_t counters = 0;                         ///< words, see k_counter_* in src/state/constants.shared.glsl
     std::uint32_t body_capacity = 0;                    ///< instances to draw; unused ones have the kind 255
     std::uint32_t pair_capacity = 0;                    ///< pairs of the last step

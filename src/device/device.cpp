@@ -17,6 +17,19 @@ BufferId Launch::bound(const char* block) const {
                 "; the launch binds " + (known.empty() ? "no block" : known));
 }
 
+// A device may do with less memory: here each buffer is one of its own.
+void Device::reserve_contacts(uint pairs, uint manifolds, bool) {
+    for (const auto& buffers : {k_contact_buffers, k_old_contact_buffers})
+        for (const BufferId buffer : buffers)
+            grow(buffer, pairs * bytes_a_pair(buffer));
+    grow(BufferId::Constraints, manifolds * sizeof(ContactConstraint));
+}
+
+void Device::swap_contacts() {
+    for (std::size_t i = 0; i < k_contact_buffers.size(); ++i)
+        swap(k_contact_buffers[i], k_old_contact_buffers[i]);
+}
+
 } // namespace talus::engine
 
 namespace talus {

@@ -42,6 +42,18 @@ inline constexpr std::array<BufferInfo, static_cast<std::size_t>(BufferId::count
 #undef X
 }};
 
+/// What the narrow phase finds, and behind it the same of the last step, in the same order.
+inline constexpr std::array k_contact_buffers{BufferId::Manifolds, BufferId::ManifoldPoints, BufferId::PointSeparations,
+                                              BufferId::PointImpulses};
+inline constexpr std::array k_old_contact_buffers{BufferId::OldManifolds, BufferId::OldManifoldPoints,
+                                                  BufferId::OldPointSeparations, BufferId::OldPointImpulses};
+
+/// Of one of these.
+constexpr std::size_t bytes_a_pair(BufferId id) {
+    const bool has_points = id == BufferId::ManifoldPoints || id == BufferId::OldManifoldPoints;
+    return (has_points ? 4 : 1) * k_buffers[static_cast<std::size_t>(id)].stride;
+}
+
 /// A parameterised kernel's block and the buffer that it stands for in this launch (primitives have such blocks).
 struct Binding {
     const char* block;
@@ -107,6 +119,20 @@ public:
     /// Waits for all kernels that were given so far, once for all requests; reads from each buffer's start.
     virtual void read(std::span<const ReadRequest>) = 0;
     virtual void swap(BufferId, BufferId) = 0;
+
+    /// Gives the buffers of contacts, and Constraints, room for at least so many pairs and manifolds. From then on they
+    /// grow and are swapped together, and Constraints may lie over contacts that nobody wants any more: from
+    /// begin_constraints on over the old ones, and from swap_contacts on over the new ones, until kernels write these.
+    /// Constraints and what they do not lie over keep their content. `keeps_old`: they never lie over the old ones, as
+    /// the end of a step reads them; that holds for good.
+    virtual void reserve_contacts(uint pairs, uint manifolds, bool keeps_old);
+    /// Kernels that are given from here on write Constraints; those that read the old contacts need keeps_old.
+    virtual void begin_constraints() {}
+    /// Whether nothing may have been written over the old contacts.
+    virtual bool has_old_contacts() const { return true; }
+    /// The new contacts become the old ones, and these make place for new ones.
+    virtual void swap_contacts();
+
     virtual void set_parameters(const Parameters&) = 0;
 
     /// Makes kernels that will be launched soon ready, side by side where the device can. Waits for none of them.
@@ -137,8 +163,8 @@ public:
 
     /// A buffer's memory where the host may use it directly; null on a GPU.
     virtual std::byte* host_data(BufferId) { return nullptr; }
-    /// For drawing without a copy; 0 on a device without OpenGL.
-    virtual std::uint32_t gl_name(BufferId) const { return 0; }
+    /// For drawing without a copy; empty on a device without OpenGL.
+    virtual GlRange gl_range(BufferId) const { return {}; }
     virtual void make_current() {}
 
 protected:

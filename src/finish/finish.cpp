@@ -20,10 +20,7 @@ void finish(Device& device, const StepPlan& plan) {
 }
 
 void swap_manifolds(Device& device) {
-    device.swap(BufferId::Manifolds, BufferId::OldManifolds);
-    device.swap(BufferId::ManifoldPoints, BufferId::OldManifoldPoints);
-    device.swap(BufferId::PointSeparations, BufferId::OldPointSeparations);
-    device.swap(BufferId::PointImpulses, BufferId::OldPointImpulses);
+    device.swap_contacts();
     device.swap(BufferId::ContactStates, BufferId::OldContactStates);
 }
 

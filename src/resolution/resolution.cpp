@@ -78,7 +78,16 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                 .args = {plan.measures_islands(), plan.needs_launches(), !plan.makes_graph}});
 }
 
+/// What the persistent launch keeps of a heap that may be multirate.
+static void reserve_fast_lists(Device& device, const StepPlan& plan) {
+    if (plan.persistent_groups == 0 || !plan.needs_launches() || !plan.may_be_multirate()) return;
+    device.grow(BufferId::FastBodies, sizeof(uint) * k_fast_body_words * plan.body_count);
+    device.grow(BufferId::FastContacts, sizeof(FastContact) * plan.manifold_capacity);
+}
+
 void prepare(Device& device, const StepPlan& plan) {
+    reserve_fast_lists(device, plan); // may throw, and what follows cannot be undone
+    device.begin_constraints();
     device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.has_islands(), plan.has_groups()}});
     run_on_near_pairs(device, plan, prepare_contacts);
 }
@@ -115,16 +124,11 @@ void solve(Device& device, const StepPlan& plan) {
     if (plan.bounces) device.grow(BufferId::WarmStarts, 2 * device.size(BufferId::Velocities)); // for BodyHits, too
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
     const Kernel& persistent = persistent_solver(plan);
-    if (plan.persistent_groups > 0 && plan.needs_launches()) {
-        if (plan.may_be_multirate()) {
-            device.grow(BufferId::FastBodies, sizeof(uint) * k_fast_body_words * plan.body_count);
-            device.grow(BufferId::FastContacts, sizeof(FastContact) * plan.manifold_capacity);
-        }
+    if (plan.persistent_groups > 0 && plan.needs_launches())
         device.run({.kernel = persistent,
                     .items = plan.persistent_groups * persistent.items_a_group,
                     .args = {0, plan.kinematic},
                     .overlaps_next = plan.in_groups});
-    }
     if (plan.in_groups) {
         if (plan.singles)
             device.run({.kernel = single_solver(plan),

@@ -148,7 +148,7 @@ struct ManifoldPoint {
 };
 
 // 32 bytes, one a pair: the rest of what is known of its points. The next step reads it only of a pair that sleeps. Of a pair
-// without points it is that of some earlier step.
+// without points nobody has written it.
 struct Separations {
     vec4 separation; // m of each point, negative = overlap; 0 where there is none
     vec3 shift;      // m: B is this far on, as seen from A, where the bodies meet

@@ -48,9 +48,11 @@ void GlBindings::use_program(GLuint program) {
     program_ = program;
 }
 
-void GlBindings::bind_storage(GLuint binding, GLuint buffer) {
-    if (storage_[binding] != buffer) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
-    storage_[binding] = buffer;
+void GlBindings::bind_storage(GLuint binding, const GlRange& range) {
+    if (storage_[binding] != range)
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, range.buffer, static_cast<GLintptr>(range.offset),
+                          static_cast<GLsizeiptr>(range.size));
+    storage_[binding] = range;
 }
 
 void GlBindings::bind_parameters(GLuint buffer) {
@@ -65,7 +67,7 @@ void GlBindings::bind_dispatches(GLuint buffer) {
 
 void GlBindings::forget() {
     program_ = 0;
-    storage_.fill(0);
+    storage_.fill({});
     parameters_ = 0;
     dispatches_ = 0;
 }

@@ -19,7 +19,7 @@ public:
     void end();
 
     void use_program(GLuint);
-    void bind_storage(GLuint binding, GLuint buffer);
+    void bind_storage(GLuint binding, const GlRange&);
     void bind_parameters(GLuint buffer);
     void bind_dispatches(GLuint buffer);
     /// To be called when a buffer was deleted: its name may come back for another one.
@@ -39,7 +39,7 @@ private:
 
     // what is bound as far as is known, 0 for "not known"
     GLuint program_ = 0;
-    std::array<GLuint, k_max_storage_blocks> storage_{};
+    std::array<GlRange, k_max_storage_blocks> storage_{};
     GLuint parameters_ = 0;
     GLuint dispatches_ = 0;
 

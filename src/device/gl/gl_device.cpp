@@ -121,13 +121,11 @@ uint GlDevice::resident_groups(const Kernel& kernel) {
 }
 
 void GlDevice::grow(BufferId id, std::size_t bytes) {
+    if (bytes <= size(id)) return;
+    TALUS_ASSERT(!is_in_room(id), "a buffer of contacts was to grow without the others");
     GlBuffer& old = buffer(id);
-    if (bytes <= old.size()) return;
     const std::size_t wanted = whole(lies_in_blocks(id) ? element_bytes(id) : k_cell_bytes, bytes);
-    if (wanted > max_block_bytes_)
-        throw Error(std::string("buffer ") + buffer_info(id).block + ": " + std::to_string(wanted) +
-                    " bytes are needed, and " + context_->renderer() + " allows a buffer of " +
-                    std::to_string(max_block_bytes_) + " bytes at most");
+    check_block_size(id, wanted);
     make_current();
     order_after_kernels();
     GlBuffer grown(buffer_info(id).block, wanted);
@@ -137,13 +135,63 @@ void GlDevice::grow(BufferId id, std::size_t bytes) {
     bindings_.forget();
 }
 
+void GlDevice::check_block_size(BufferId id, std::size_t bytes) const {
+    if (bytes > max_block_bytes_)
+        throw Error(std::string("buffer ") + buffer_info(id).block + ": " + std::to_string(bytes) +
+                    " bytes are needed, and " + context_->renderer() + " allows a buffer of " +
+                    std::to_string(max_block_bytes_) + " bytes at most");
+}
+
+void GlDevice::reserve_contacts(uint pairs, uint manifolds, bool keeps_old) {
+    std::optional<ContactRoom>& room = objects_->room;
+    const ContactRoom wanted =
+        room ? room->grown(pairs, manifolds, keeps_old) : ContactRoom(pairs, manifolds, keeps_old);
+    for (const BufferId id : k_room_buffers)
+        check_block_size(id, wanted.place(id).bytes);
+    if (room && wanted.has_places_of(*room)) {
+        room = wanted; // there may be more room for constraints over the same arrays
+        return;
+    }
+    make_current();
+    order_after_kernels();
+    GlBuffer grown("Contacts", wanted.bytes());
+    grown.zero(0, grown.size());
+    for (const BufferId id : k_room_buffers) {
+        if (wanted.is_covered(id) || (room && room->is_covered(id))) continue;
+        const GlRange from = gl_range(id);
+        const ContactRoom::Place to = wanted.place(id);
+        glCopyNamedBufferSubData(from.buffer, grown.name(), static_cast<GLintptr>(from.offset),
+                                 static_cast<GLintptr>(to.offset),
+                                 static_cast<GLsizeiptr>(std::min<std::size_t>(from.size, to.bytes)));
+    }
+    for (const BufferId id : k_room_buffers)
+        objects_->buffers[static_cast<std::size_t>(id)] = GlBuffer();
+    objects_->contacts = std::move(grown);
+    room = wanted;
+    bindings_.forget();
+}
+
+void GlDevice::begin_constraints() {
+    if (objects_->room) objects_->room->begin_constraints();
+}
+
+bool GlDevice::has_old_contacts() const {
+    return !objects_->room || !objects_->room->is_covered(BufferId::OldManifolds);
+}
+
+void GlDevice::swap_contacts() {
+    if (!objects_->room) return Device::swap_contacts();
+    objects_->room->swap();
+}
+
 std::size_t GlDevice::size(BufferId id) const {
-    return buffer(id).size();
+    return gl_range(id).size;
 }
 
 std::uint64_t GlDevice::memory_bytes() const {
     std::uint64_t bytes = objects_->parameters.size() + objects_->uploads.memory_bytes() +
-                          objects_->read_back.memory_bytes() + objects_->steps.memory_bytes();
+                          objects_->read_back.memory_bytes() + objects_->steps.memory_bytes() +
+                          objects_->contacts.size();
     for (const GlBuffer& each : objects_->buffers)
         bytes += each.size();
     return bytes;
@@ -153,9 +201,10 @@ void GlDevice::write(BufferId id, std::size_t offset, std::span<const std::byte>
     check_range(id, offset + bytes.size(), "written");
     make_current();
     order_after_kernels();
-    if (!lies_in_blocks(id)) return objects_->uploads.copy(buffer(id).name(), offset, bytes);
+    const GlRange range = gl_range(id);
+    if (!lies_in_blocks(id)) return objects_->uploads.copy(range.buffer, range.offset + offset, bytes);
     TALUS_ASSERT(offset == 0, "records in blocks were to be written from their middle on");
-    objects_->uploads.copy(buffer(id).name(), 0, in_blocks(bytes, buffer_info(id).stride));
+    objects_->uploads.copy(range.buffer, range.offset, in_blocks(bytes, buffer_info(id).stride));
 }
 
 void GlDevice::read(std::span<const ReadRequest> requests) {
@@ -165,7 +214,8 @@ void GlDevice::read(std::span<const ReadRequest> requests) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
         const ReadRequest& request = requests[i];
         check_range(request.buffer, request.bytes, "read");
-        sources.push_back({buffer(request.buffer).name(), request.bytes, request.destination});
+        const GlRange range = gl_range(request.buffer);
+        sources.push_back({range.buffer, range.offset, request.bytes, request.destination});
         if (!lies_in_blocks(request.buffer)) continue;
         blocks[i].resize(whole(element_bytes(request.buffer), request.bytes));
         sources.back().bytes = blocks[i].size();
@@ -183,6 +233,7 @@ void GlDevice::read(std::span<const ReadRequest> requests) {
 }
 
 void GlDevice::swap(BufferId a, BufferId b) {
+    TALUS_ASSERT(!is_in_room(a) && !is_in_room(b), "contacts were to be swapped without the others");
     std::swap(buffer(a), buffer(b));
     if (context_->is_debug()) {
         make_current();
@@ -239,7 +290,7 @@ void GlDevice::run_kernel(const Launch& launch) {
     for (GLuint binding = 0; binding < kernel.blocks().size(); ++binding) {
         const StorageBlock& block = kernel.blocks()[binding];
         const BufferId id = kernel.buffer(block, launch);
-        bindings_.bind_storage(binding, buffer(id).name());
+        bindings_.bind_storage(binding, gl_range(id));
         if (id == BufferId::Dispatches && block.written)
             barriers |= GL_COMMAND_BARRIER_BIT; // nearly doubles the cost of a dispatch on some GPUs
     }
@@ -314,12 +365,24 @@ std::span<const double> GlDevice::stage_ms(Ticket ticket) const {
     return objects_->steps.stage_ms(ticket);
 }
 
-std::uint32_t GlDevice::gl_name(BufferId id) const {
-    return buffer(id).name();
+GlRange GlDevice::gl_range(BufferId id) const {
+    if (!is_in_room(id)) return {buffer(id).name(), 0, buffer(id).size()};
+    const ContactRoom::Place place = objects_->room->place(id);
+    return {objects_->contacts.name(), place.offset, place.bytes};
 }
 
 void GlDevice::make_current() {
     context_->make_current();
+}
+
+bool GlDevice::is_in_room(BufferId id) const {
+    static constexpr auto lies_in_room = [] {
+        std::array<bool, k_buffers.size()> lies{};
+        for (const BufferId buffer : k_room_buffers)
+            lies[static_cast<std::size_t>(buffer)] = true;
+        return lies;
+    }();
+    return objects_->room && lies_in_room[static_cast<std::size_t>(id)];
 }
 
 GlBuffer& GlDevice::buffer(BufferId id) const {

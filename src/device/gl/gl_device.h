@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "device/device.h"
+#include "device/gl/contact_room.h"
 #include "device/gl/gl_bindings.h"
 #include "device/gl/gl_context.h"
 #include "device/gl/gl_program.h"
@@ -36,6 +37,10 @@ public:
     void write(BufferId, std::size_t offset, std::span<const std::byte>) override;
     void read(std::span<const ReadRequest>) override;
     void swap(BufferId, BufferId) override;
+    void reserve_contacts(uint pairs, uint manifolds, bool keeps_old) override;
+    void begin_constraints() override;
+    bool has_old_contacts() const override;
+    void swap_contacts() override;
     void set_parameters(const Parameters&) override;
     void prepare(std::span<const Kernel* const>) override;
     /// A kernel that turns out to be faulty never is, and the log says so once.
@@ -50,7 +55,7 @@ public:
     std::span<const BodyPose> poses(Ticket) const override;
     std::span<const ContactReport> reports(Ticket) const override;
     std::span<const double> stage_ms(Ticket) const override;
-    std::uint32_t gl_name(BufferId) const override;
+    GlRange gl_range(BufferId) const override;
     void make_current() override;
 
 private:
@@ -58,7 +63,9 @@ private:
     struct Objects {
         Objects(bool profile, bool program_cache);
 
-        std::array<GlBuffer, k_buffers.size()> buffers;
+        std::array<GlBuffer, k_buffers.size()> buffers; // those in the room have none of their own
+        std::optional<ContactRoom> room;
+        GlBuffer contacts; // the room's
         GlBuffer parameters;
         ProgramCache cache;
         std::unordered_map<std::string, GlProgram> programs;
@@ -67,7 +74,11 @@ private:
         StepRing steps;
     };
 
+    bool is_in_room(BufferId) const;
+    /// One that is not in the room of contacts.
     GlBuffer& buffer(BufferId) const;
+    /// Throws Error where the driver does not let a kernel see so many bytes of it.
+    void check_block_size(BufferId, std::size_t bytes) const;
     /// The kernel's program, perhaps unfinished.
     GlProgram& begun_program(const Kernel&);
     GlProgram& program(const Kernel&);

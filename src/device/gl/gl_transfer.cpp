@@ -48,14 +48,14 @@ void ReadBack::read(std::span<const Request> requests) {
 
     std::size_t place = 0;
     for (const Request& request : requests) {
-        glCopyNamedBufferSubData(request.source, buffer_.name(), 0, static_cast<GLintptr>(place),
-                                 static_cast<GLsizeiptr>(request.bytes));
+        glCopyNamedBufferSubData(request.source, buffer_.name(), static_cast<GLintptr>(request.offset),
+                                 static_cast<GLintptr>(place), static_cast<GLsizeiptr>(request.bytes));
         place += aligned(request.bytes);
     }
     GlFence::place().wait();
     place = 0;
     for (const Request& request : requests) {
-        std::memcpy(request.destination, buffer_.mapped() + place, request.bytes);
+        if (request.bytes > 0) std::memcpy(request.destination, buffer_.mapped() + place, request.bytes);
         place += aligned(request.bytes);
     }
 }

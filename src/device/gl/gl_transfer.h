@@ -33,6 +33,7 @@ class ReadBack {
 public:
     struct Request {
         GLuint source;
+        std::size_t offset;
         std::size_t bytes;
         void* destination;
     };

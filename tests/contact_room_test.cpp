@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: MIT
+// Constraints that lie over contacts which are not wanted any more: where they do so, what growth keeps, and that
+// nobody sees it, whatever becomes of a step.
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "device/gl/contact_room.h"
+#include "step_results.h"
+#include "tests/bodies.h"
+#include "tests/devices.h"
+#include "tests/engine_run.h"
+#include "tests/stand_in_device.h"
+
+namespace talus::tests {
+namespace {
+
+using engine::BufferId;
+using engine::ContactRoom;
+using engine::uint;
+
+/// Those of the room but for Constraints.
+std::vector<BufferId> all_contacts() {
+    std::vector<BufferId> all(engine::k_room_buffers.begin(), engine::k_room_buffers.end());
+    std::erase(all, BufferId::Constraints);
+    return all;
+}
+
+bool overlap(ContactRoom::Place a, ContactRoom::Place b) {
+    return a.offset < b.offset + b.bytes && b.offset < a.offset + a.bytes;
+}
+
+/// The room in each of the ways in which its parts can lie: in the two halves of two steps.
+std::vector<ContactRoom> ways(ContactRoom room) {
+    std::vector<ContactRoom> all;
+    for (int step = 0; step < 2; ++step) {
+        all.push_back(room);
+        room.begin_constraints();
+        all.push_back(room);
+        room.swap();
+    }
+    return all;
+}
+
+struct Size {
+    uint pairs, manifolds;
+};
+constexpr std::array k_sizes{Size{0, 0},   Size{1, 1},     Size{3, 0},      Size{3, 3},
+                             Size{64, 64}, Size{100, 900}, Size{1000, 600}, Size{1000, 1000}};
+
+// ---- places ----
+
+TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_constraints_over_what_is_dead) {
+    for (const Size size : k_sizes) {
+        for (const bool keeps_old : {false, true}) {
+            for (const ContactRoom& room : ways(ContactRoom(size.pairs, size.manifolds, keeps_old))) {
+                SCOPED_TRACE(testing::Message() << size.pairs << " pairs, " << size.manifolds << " manifolds");
+                const ContactRoom::Place constraints = room.place(BufferId::Constraints);
+                EXPECT_GE(constraints.bytes, size.manifolds * sizeof(engine::ContactConstraint));
+                EXPECT_LE(constraints.offset + constraints.bytes, room.bytes());
+                EXPECT_EQ(constraints.offset % 256, 0u);
+                for (const BufferId id : all_contacts()) {
+                    const ContactRoom::Place place = room.place(id);
+                    EXPECT_EQ(place.offset % 256, 0u);
+                    EXPECT_GT(place.bytes, 0u) << "none may be bound";
+                    EXPECT_GE(place.bytes, size.pairs * engine::bytes_a_pair(id));
+                    EXPECT_LE(place.offset + place.bytes, room.bytes());
+                    EXPECT_TRUE(room.is_covered(id) || !overlap(place, constraints));
+                    for (const BufferId other : all_contacts())
+                        EXPECT_EQ(overlap(place, room.place(other)), id == other);
+                }
+            }
+        }
+    }
+}
+
+TEST(ContactRooms, have_constraints_over_the_old_contacts_in_a_step_and_over_the_new_ones_between_steps) {
+    ContactRoom room(100, 100, false);
+    EXPECT_TRUE(room.is_covered(BufferId::Manifolds));
+    EXPECT_FALSE(room.is_covered(BufferId::OldManifolds));
+    for (int step = 0; step < 3; ++step) {
+        room.begin_constraints();
+        EXPECT_FALSE(room.is_covered(BufferId::Manifolds));
+        EXPECT_TRUE(room.is_covered(BufferId::OldPointImpulses));
+        const ContactRoom before = room;
+        room.swap();
+        const auto offset = [](const ContactRoom& of, BufferId id) { return of.place(id).offset; };
+        EXPECT_EQ(offset(room, BufferId::Constraints), offset(before, BufferId::Constraints)) << "they lie still";
+        for (std::size_t i = 0; i < engine::k_contact_buffers.size(); ++i) {
+            const BufferId id = engine::k_contact_buffers[i], old = engine::k_old_contact_buffers[i];
+            EXPECT_EQ(offset(room, old), offset(before, id));
+            EXPECT_EQ(offset(room, id), offset(before, old));
+            EXPECT_TRUE(room.is_covered(id));
+            EXPECT_FALSE(room.is_covered(old));
+        }
+    }
+}
+
+TEST(ContactRooms, cover_nothing_where_the_old_contacts_are_kept) {
+    for (const ContactRoom& room : ways(ContactRoom(100, 100, true)))
+        for (const BufferId id : all_contacts())
+            EXPECT_FALSE(room.is_covered(id));
+}
+
+TEST(ContactRooms, need_memory_for_constraints_only_where_these_are_longer_than_the_contacts_below) {
+    constexpr uint pairs = 256 * 32; // whole numbers of all that places are rounded to
+    EXPECT_EQ(ContactRoom(pairs, 0, false).bytes(), 2u * 176 * pairs);
+    EXPECT_EQ(ContactRoom(pairs, pairs * 11 / 16, false).bytes(), 2u * 176 * pairs);
+    EXPECT_EQ(ContactRoom(pairs, pairs, false).bytes(), (176u + 256u) * pairs);
+    EXPECT_EQ(ContactRoom(pairs, pairs, true).bytes(), (2u * 176u + 256u) * pairs);
+    EXPECT_EQ(ContactRoom(pairs, pairs / 4, true).bytes(), (2u * 176u + 64u) * pairs);
+}
+
+TEST(ContactRooms, that_grow_have_the_same_parts_alive_and_never_shrink) {
+    for (const bool keeps_old : {false, true}) {
+        for (const ContactRoom& room : ways(ContactRoom(100, 60, keeps_old))) {
+            EXPECT_TRUE(room.grown(1, 1, false).has_places_of(room));
+            EXPECT_EQ(room.grown(1, 1, false).place(BufferId::Constraints).bytes,
+                      room.place(BufferId::Constraints).bytes);
+            const ContactRoom larger = room.grown(300, 200, false);
+            EXPECT_FALSE(larger.has_places_of(room));
+            for (const BufferId id : all_contacts()) {
+                EXPECT_EQ(larger.is_covered(id), room.is_covered(id));
+                EXPECT_GT(larger.place(id).bytes, room.place(id).bytes);
+            }
+            EXPECT_EQ(room.grown(1, 1, true).has_places_of(room), keeps_old);
+        }
+    }
+    // Constraints that get longer over the same contacts.
+    const ContactRoom room(1000, 10, false);
+    EXPECT_TRUE(room.grown(0, 600, false).has_places_of(room));
+    EXPECT_GT(room.grown(0, 600, false).place(BufferId::Constraints).bytes, room.place(BufferId::Constraints).bytes);
+    EXPECT_FALSE(room.grown(0, 1000, false).has_places_of(room));
+}
+
+// ---- content ----
+
+class ContactMemory : public OnDevice {};
+
+/// Words that tell what they are of.
+std::vector<std::byte> pattern(BufferId id, std::size_t bytes) {
+    std::vector<uint> words(bytes / sizeof(uint));
+    for (std::size_t i = 0; i < words.size(); ++i)
+        words[i] = static_cast<uint>(id) << 24 | static_cast<uint>(i + 1);
+    const auto content = std::as_bytes(std::span(words));
+    return {content.begin(), content.end()};
+}
+
+std::vector<std::byte> content(engine::Device& device, BufferId id) {
+    std::vector<std::byte> bytes(device.size(id));
+    device.read(std::array{engine::ReadRequest{id, bytes.size(), bytes.data()}});
+    return bytes;
+}
+
+void expect_kept(engine::Device& device, BufferId id, const std::vector<std::byte>& before) {
+    std::vector<std::byte> expected = before, now = content(device, id);
+    ASSERT_GE(now.size(), before.size());
+    if (id == BufferId::Constraints) now.resize(before.size());
+    expected.resize(now.size());
+    EXPECT_TRUE(now == expected) << engine::k_buffers[static_cast<std::size_t>(id)].block;
+}
+
+TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
+    if (GetParam() == DeviceKind::Hybrid) return; // has no device of its own
+    const auto device = GetParam() == DeviceKind::Gpu ? engine::make_gl_device(GlContext::Own, false)
+                                                      : engine::make_cpu_device(1, false);
+    std::vector<BufferId> alive(engine::k_old_contact_buffers.begin(), engine::k_old_contact_buffers.end());
+    alive.push_back(BufferId::Constraints);
+    std::map<BufferId, std::vector<std::byte>> written;
+    const auto write = [&] {
+        for (const BufferId id : alive) {
+            written[id] = pattern(id, device->size(id));
+            device->write(id, 0, written[id]);
+        }
+    };
+    const auto check = [&] {
+        for (const BufferId id : alive)
+            expect_kept(*device, id, written[id]);
+    };
+    for (const BufferId id : all_contacts()) // each by itself
+        device->grow(id, 2 * engine::bytes_a_pair(id));
+    device->grow(BufferId::Constraints, 32 * sizeof(engine::ContactConstraint));
+    write();
+    device->reserve_contacts(10, 32, false);
+    check();
+    uint pairs = 10;
+    for (const bool keeps_old : {false, false, true, true, false}) {
+        for (int step = 0; step < 3; ++step) {
+            device->begin_constraints();
+            device->swap_contacts();
+            write();
+            check();
+            pairs *= 2;
+            device->reserve_contacts(pairs, pairs / 3, keeps_old);
+            check();
+            device->reserve_contacts(pairs, pairs, keeps_old);
+            check();
+        }
+    }
+    EXPECT_TRUE(device->has_old_contacts());
+    EXPECT_GE(device->size(BufferId::ManifoldPoints), std::size_t{4} * 16 * pairs);
+}
+
+void add(std::string& text, auto... values) {
+    (text.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
+}
+
+/// All that the world tells of its last step's contacts, in the bits that it has.
+std::string results_of(const World& world) {
+    std::string text;
+    for (const Contact& contact : world.contacts()) {
+        add(text, contact.a.index, contact.b.index, contact.colour, contact.normal);
+        for (const ContactPoint& point : contact.points)
+            add(text, point);
+    }
+    return text;
+}
+
+/// In the order of their bits: which comes first in a step is not told.
+std::multiset<std::string> take_events(World& world) {
+    std::multiset<std::string> events;
+    for (const ContactEvent& event : world.take_contact_events()) {
+        std::string text;
+        add(text, event.step, event.phase, event.a.index, event.b.index);
+        for (const ContactPoint& point : event.points)
+            add(text, point);
+        events.insert(text);
+    }
+    return events;
+}
+
+/// A wall of boxes, and one more at each call.
+void add_box(World& world) {
+    const auto i = static_cast<float>(world.body_count());
+    world.add(box_at({std::fmod(i, 7.0f) * 1.02f, 0.5f + std::floor(i / 7.0f), 0.0f}));
+}
+
+TEST_P(ContactMemory, tells_the_same_of_contacts_as_the_cpu_while_it_grows) {
+    WorldOptions small = options_on(GetParam()), ample = options_on(DeviceKind::Cpu);
+    small.capacities = {1, 1, 1};
+    ample.capacities = {256, 4096, 64};
+    World world({}, small), expected({}, ample);
+    for (World* each : {&world, &expected})
+        each->add(ground());
+    for (int i = 0; i < 40; ++i) {
+        for (World* each : {&world, &expected}) {
+            if (i == 13) each->watch_contacts(ContactWatch::All); // in the midst of a run
+            if (i == 27) each->watch_contacts(ContactWatch::None);
+            if (i == 34) each->watch_contacts(ContactWatch::Changes);
+            add_box(*each);
+            each->step(i % 3 + 1);
+        }
+        ASSERT_EQ(results_of(world), results_of(expected)) << "after step " << world.step_count();
+        ASSERT_EQ(take_events(world), take_events(expected)) << "after step " << world.step_count();
+        ASSERT_EQ(world.state_hash(), expected.state_hash()) << "after step " << world.step_count();
+    }
+    EXPECT_GT(world.report().growths, 3u);
+}
+
+TEST_P(ContactMemory, goes_into_snapshots_and_comes_out_of_them) {
+    WorldOptions options = options_on(GetParam());
+    options.capacities = {1, 1, 1};
+    World world({}, options), other({}, options);
+    world.add(ground());
+    for (int i = 0; i < 20; ++i)
+        add_box(world);
+    for (int i = 0; i < 4; ++i) {
+        world.step(3 + i); // an even or odd number
+        const std::string results = results_of(world);
+        const Snapshot snapshot = world.snapshot();
+        other.restore(snapshot);
+        EXPECT_EQ(results_of(other), results);
+        EXPECT_EQ(results_of(world), results) << "which a snapshot does not change";
+        world.step(2);
+        other.step(2);
+        EXPECT_EQ(other.state_hash(), world.state_hash());
+        EXPECT_EQ(results_of(other), results_of(world));
+        world.restore(snapshot);
+        EXPECT_EQ(results_of(world), results);
+    }
+}
+
+TEST_P(ContactMemory, may_be_more_than_one_block_of_a_kernel) {
+    WorldOptions options = options_on(GetParam());
+    World expected({}, options);
+    options.capacities.pairs = 400'000; // 165 MiB of contacts; Mesa's software renderer allows 128 MiB a block
+    World world({}, options);
+    for (World* each : {&world, &expected}) {
+        each->add(bodies_of("card_house:levels=2"));
+        each->step(9);
+    }
+    EXPECT_EQ(world.state_hash(), expected.state_hash());
+    EXPECT_EQ(results_of(world), results_of(expected));
+}
+
+// ---- steps that come to nothing ----
+
+/// A device that has no room, or cannot have a kernel, where a test says so.
+class PoorDevice final : public StandInDevice {
+public:
+    using StandInDevice::StandInDevice;
+
+    Size most{engine::k_none, engine::k_none}; // that there is room for
+    const engine::Kernel* faulty = nullptr;
+
+    void reserve_contacts(uint pairs, uint manifolds, bool keeps_old) override {
+        if (pairs > most.pairs || manifolds > most.manifolds) throw Error("no room");
+        StandInDevice::reserve_contacts(pairs, manifolds, keeps_old);
+    }
+    void run(const engine::Launch& launch) override {
+        if (&launch.kernel == faulty) throw Error("no kernel");
+        StandInDevice::run(launch);
+    }
+};
+
+std::vector<BodyDefinition> tower() {
+    std::vector<BodyDefinition> bodies{ground()};
+    for (int i = 0; i < 5; ++i)
+        bodies.push_back(box_at({0.0f, 0.5f + static_cast<float>(i), 0.0f}));
+    return bodies;
+}
+
+struct PoorRun {
+    PoorRun(DeviceKind kind, bool with_room) {
+        WorldOptions options = options_on(kind);
+        options.capacities.pairs = with_room ? 4096 : 8;
+        engine::Devices devices = engine::make_devices(options);
+        std::unique_ptr<engine::Device>& last = devices.cpu ? devices.cpu : devices.gpu;
+        auto poor = std::make_unique<PoorDevice>(std::move(last));
+        device = poor.get();
+        last = std::move(poor);
+        run = std::make_unique<EngineRun>(options, std::move(devices), tower());
+    }
+
+    /// Boxes beside the tower, so that there is no room for all pairs.
+    void add_wall() {
+        std::vector<BodyDefinition> more;
+        for (int i = 0; i < 30; ++i)
+            more.push_back(box_at({5.0f + static_cast<float>(i % 6), 0.5f + static_cast<float>(i / 6), 0.0f}));
+        for (const BodyDefinition& body : more)
+            run->table.add(body);
+        engine::Simulation& simulation = run->simulation;
+        const uint count = run->table.slot_count();
+        simulation.reserve_bodies(count);
+        const uint first = count - static_cast<uint>(more.size());
+        const auto write = [&](BufferId id, const auto& records) {
+            simulation.write(id, first, std::span(records).subspan(first));
+        };
+        write(BufferId::Poses, run->table.poses);
+        write(BufferId::Velocities, run->table.velocities);
+        write(BufferId::Shapes, run->table.shapes);
+        write(BufferId::Properties, run->table.properties);
+    }
+
+    std::unique_ptr<EngineRun> run;
+    PoorDevice* device = nullptr; // the run's
+};
+
+TEST_P(ContactMemory, is_as_it_was_after_a_step_for_which_there_is_no_room) {
+    const std::map<const char*, Size> lacks{{"pairs", {8, 8}}, // known before contacts are found, or behind it
+                                            {"manifolds", {engine::k_none, 8}}};
+    for (const auto& [what, most] : lacks) {
+        SCOPED_TRACE(what);
+        PoorRun poor(GetParam(), false), rich(GetParam(), true);
+        poor.run->step(5);
+        rich.run->step(5);
+        const engine::ContactRecords before = read_contacts(poor.run->simulation);
+        ASSERT_GT(before.manifolds.size(), 4u);
+        poor.add_wall();
+        rich.add_wall();
+        const std::vector<float> motion = poor.run->motion();
+        poor.device->most = most;
+        EXPECT_THROW(poor.run->step(3), Error);
+        EXPECT_TRUE(poor.run->motion() == motion);
+        const engine::ContactRecords now = read_contacts(poor.run->simulation);
+        ASSERT_EQ(now.manifolds.size(), before.manifolds.size());
+        for (std::size_t i = 0; i < now.manifolds.size(); ++i) {
+            EXPECT_EQ(now.manifolds[i].body_b, before.manifolds[i].body_b);
+            EXPECT_EQ(now.manifolds[i].point_count, before.manifolds[i].point_count);
+            for (int k = 0; k < 4; ++k) {
+                const float impulse = now.next_impulses[i].normal[k];
+                EXPECT_EQ(impulse, before.next_impulses[i].normal[k]);
+                EXPECT_EQ(impulse, now.impulses[4 * i + static_cast<std::size_t>(k)]) << "of constraints that are lost";
+            }
+        }
+        poor.device->most = {engine::k_none, engine::k_none};
+        poor.run->step(3);
+        rich.run->step(3);
+        EXPECT_TRUE(poor.run->motion() == rich.run->motion()) << "impulses that a step starts from have been kept";
+        EXPECT_TRUE(read_contacts(poor.run->simulation).impulses == read_contacts(rich.run->simulation).impulses);
+    }
+}
+
+TEST_P(ContactMemory, is_empty_after_a_step_that_broke_off_in_the_midst_of_the_solve) {
+    PoorRun poor(GetParam(), true);
+    poor.run->step(5);
+    ASSERT_GT(read_contacts(poor.run->simulation).manifolds.size(), 4u);
+    poor.device->faulty = &engine::store_contact_impulses;
+    EXPECT_THROW(poor.run->step(), Error);
+    const bool lost = GetParam() == DeviceKind::Gpu;
+    EXPECT_EQ(read_contacts(poor.run->simulation).manifolds.empty(), lost) << "the CPU's constraints lie elsewhere";
+    EXPECT_EQ(poor.run->counter(engine::k_counter_old_pair_count) == 0, lost);
+    poor.device->faulty = nullptr;
+    poor.run->step(20);
+    EXPECT_GT(read_contacts(poor.run->simulation).manifolds.size(), 4u);
+    for (const auto& pose : poor.run->read<engine::BodyPose>(BufferId::Poses, 6))
+        EXPECT_NEAR(pose.position.x, 0.0f, 0.01f);
+}
+
+TEST_P(ContactMemory, has_the_constraints_of_the_last_step_between_steps) {
+    PoorRun run(GetParam(), true), expected(DeviceKind::Cpu, true);
+    for (int i = 0; i < 4; ++i) {
+        run.run->step();
+        expected.run->step();
+        const uint count = run.run->counter(engine::k_counter_manifold_count);
+        ASSERT_EQ(run.run->simulation.kept_constraints(), count);
+        ASSERT_EQ(count, 5u);
+        const auto now = run.run->read<engine::ContactConstraint>(BufferId::Constraints, count);
+        const auto then = expected.run->read<engine::ContactConstraint>(BufferId::Constraints, count);
+        for (uint c = 0; c < count; ++c) {
+            EXPECT_EQ(now[c].manifold, then[c].manifold);
+            for (int k = 0; k < 4; ++k)
+                EXPECT_EQ(now[c].total_impulse[k], then[c].total_impulse[k]);
+        }
+    }
+}
+
+TALUS_ON_EVERY_DEVICE(ContactMemory);
+
+} // namespace
+} // namespace talus::tests
