@@ -21,7 +21,8 @@ static uint manifold_key_bits(const StepPlan& plan) {
 }
 
 /// Launches a kernel whose items are manifolds in the order of colours, for some pairs after the others: for those with
-/// indices from args[0] on, args[1] of them. args[2] is 1 where islands may be multirate. `overlaps_next`: of the last of them.
+/// indices from args[0] on, args[1] of them. args[2] is 1 where islands may be multirate. `overlaps_next`: of the last
+/// of them.
 static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel& kernel, bool overlaps_next = false) {
     for (uint first = 0; first < plan.pair_capacity; first += plan.near_pairs)
         device.run({.kernel = kernel,
@@ -78,15 +79,18 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                 .args = {plan.measures_islands(), plan.needs_launches(), !plan.makes_graph}});
 }
 
-/// What the persistent launch keeps of a heap that may be multirate.
-static void reserve_fast_lists(Device& device, const StepPlan& plan) {
+/// What only some worlds need for the solve: room for what hits have to know of bodies, behind the warm starts, and for
+/// the persistent launch's lists of a heap that may be multirate.
+static void reserve_for_solve(Device& device, const StepPlan& plan) {
+    static_assert(sizeof(BodyHits) == sizeof(BodyWarmStart) && sizeof(BodyHits) == sizeof(BodyVelocity));
+    if (plan.bounces) device.grow(BufferId::WarmStarts, 2 * device.size(BufferId::Velocities));
     if (plan.persistent_groups == 0 || !plan.needs_launches() || !plan.may_be_multirate()) return;
     device.grow(BufferId::FastBodies, sizeof(uint) * k_fast_body_words * plan.body_count);
     device.grow(BufferId::FastContacts, sizeof(FastContact) * plan.manifold_capacity);
 }
 
 void prepare(Device& device, const StepPlan& plan) {
-    reserve_fast_lists(device, plan); // may throw, and what follows cannot be undone
+    reserve_for_solve(device, plan); // may throw, and what follows cannot be undone
     device.begin_constraints();
     device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.has_islands(), plan.has_groups()}});
     run_on_near_pairs(device, plan, prepare_contacts);
@@ -121,7 +125,6 @@ const Kernel& single_solver(const StepPlan& plan) {
 }
 
 void solve(Device& device, const StepPlan& plan) {
-    if (plan.bounces) device.grow(BufferId::WarmStarts, 2 * device.size(BufferId::Velocities)); // for BodyHits, too
     // Each solves other islands. The persistent launch comes first, as all its groups have to run at a time.
     const Kernel& persistent = persistent_solver(plan);
     if (plan.persistent_groups > 0 && plan.needs_launches())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What hits have to know of bodies, for the CPU: behind the warm starts of all bodies, where CpuState::some_bounce says so. The GPU's
-// counterpart is stored_hits.glsl.
+// What hits have to know of bodies, for the CPU: behind the warm starts of all bodies, where CpuState::some_bounce says
+// so. The GPU's counterpart is stored_hits.glsl.
 #pragma once
 
 #include <bit>
