@@ -46,8 +46,8 @@ TEST_P(ContactQuality, baumgarte_holds_a_stack_too) {
     }
 }
 
-/// After some seconds, two more: nothing moves by a tenth of a millimetre, nor faster than `fastest` (m/s, and rad/s).
-void expect_stillness(World& world, std::uint32_t seconds = 10, float fastest = 1e-3f) {
+/// After some seconds, two more: nothing moves by `farthest` (m), nor faster than `fastest` (m/s, and rad/s).
+void expect_stillness(World& world, std::uint32_t seconds = 10, float fastest = 1e-3f, float farthest = 1e-4f) {
     world.step(60 * seconds);
     const std::vector<Pose> before = world.poses();
     for (int i = 0; i < 120; ++i) {
@@ -61,7 +61,7 @@ void expect_stillness(World& world, std::uint32_t seconds = 10, float fastest = 
     }
     const std::vector<Pose> after = world.poses();
     for (std::size_t k = 0; k < after.size(); ++k)
-        EXPECT_LT(length(after[k].position - before[k].position), 1e-4f) << "body " << k;
+        EXPECT_LT(length(after[k].position - before[k].position), farthest) << "body " << k;
 }
 
 TEST_P(LongContactQuality, a_stack_at_rest_is_still) {
@@ -113,8 +113,9 @@ TEST_P(LongContactQuality, a_wall_at_rest_is_still) {
     world.add(bodies_of("wall:width=20,height=20"));
     // How fast it still sways after ten seconds is chance, and the last bits decide: eight runs with steps that were
     // shorter or longer by up to 0.05 % had 0.1 to 0.7 mm/s at four instants, of the version before 0.3 to 1.0, and
-    // this one has 1.1 once.
-    expect_stillness(world, 10, 2e-3f);
+    // this one has 1.1 once. So is how far it comes in two seconds: five runs with steps that were shorter or longer by
+    // up to 0.02 % had 0.007 to 0.20 mm in twelve such spans each, of the version before 0.013 to 0.25 mm.
+    expect_stillness(world, 10, 2e-3f, 4e-4f);
 }
 
 TEST_P(LongContactQuality, a_pyramid_at_rest_is_still) {

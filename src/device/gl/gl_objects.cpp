@@ -2,6 +2,7 @@
 // See gl_objects.h.
 #include "device/gl/gl_objects.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <talus/types.h>
@@ -45,10 +46,19 @@ void GlBuffer::label(const std::string& text) const {
     glObjectLabel(GL_BUFFER, name_, -1, text.c_str());
 }
 
+// NVIDIA's driver clears 1 or 2 GB/s, and copies a thousand times as fast: so what is zero is copied on and on.
 void GlBuffer::zero(std::size_t offset, std::size_t bytes) const {
-    if (bytes != 0)
-        glClearNamedBufferSubData(name_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
+    constexpr std::size_t k_cleared = 64 * 1024;
+    std::size_t done = std::min(bytes, k_cleared);
+    if (done != 0)
+        glClearNamedBufferSubData(name_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(done),
                                   GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    while (done < bytes) {
+        const std::size_t more = std::min(done, bytes - done);
+        glCopyNamedBufferSubData(name_, name_, static_cast<GLintptr>(offset), static_cast<GLintptr>(offset + done),
+                                 static_cast<GLsizeiptr>(more));
+        done += more;
+    }
 }
 
 GlFence GlFence::place() {
