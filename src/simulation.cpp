@@ -450,7 +450,7 @@ void Simulation::enqueue(Pending entry) {
     try {
         entry.ticket = engine::step(placement, now, entry.with_poses, entry.changes);
     } catch (const Error&) {
-        if (launch_count() != launches_before) abandon_step();
+        if (launch_count() != launches_before) abandon_step(entry.population);
         throw;
     }
     entry.launches = launch_count() - launches_before;
@@ -458,11 +458,14 @@ void Simulation::enqueue(Pending entry) {
     pending.push_back(std::move(entry));
 }
 
-void Simulation::abandon_step() {
+void Simulation::abandon_step(const Population& population) {
     settle();
     kept_count = 0;
-    if (placement.resolution->has_old_contacts()) return;
-    forget_contacts();
+    if (!placement.resolution->has_old_contacts()) {
+        forget_contacts();
+        placement.resolution->swap_contacts(); // so that constraints no longer lie where contacts may be put back
+    }
+    owed_waking = std::max(owed_waking, population.waking);
     search_anew();
 }
 
@@ -634,11 +637,13 @@ void Simulation::redo(std::span<const uint> counters) {
     if ((reasons & (k_fit_colours | k_fit_substeps)) != 0) follow_demand(counters);
     newest_has_poses = false; // the ring goes on, and soon has no room for that frame
 
-    // The steps behind it changed nothing either, but each has exchanged the manifolds with the old ones.
+    // The steps behind it changed nothing either, but each has exchanged the manifolds with the old ones; and a step
+    // that broke off behind them has put the constraints over these.
     std::deque<Pending> again = std::exchange(pending, {});
     Device& device = *placement.resolution;
     if (!again.empty()) device.wait(again.back().ticket);
-    if (again.size() % 2 == 1) swap_manifolds(device);
+    for (std::size_t i = 0; i < again.size(); ++i)
+        swap_manifolds(device);
     constexpr uint fits = 0;
     write_bytes(BufferId::Counters, k_counter_did_not_fit * sizeof(uint), std::as_bytes(std::span(&fits, 1)));
     try {

@@ -158,7 +158,7 @@ private:
     void make_room(void (Simulation::*grow)(uint), uint demand, uint wanted);
     void redo(std::span<const uint> counters);
     /// Of a step that has been enqueued in part, as a driver could not make one of its kernels.
-    void abandon_step();
+    void abandon_step(const Population&);
     /// Where a step has begun to solve and came to nothing: its constraints may lie over the contacts of the last one.
     /// With nothing on its way. The next step starts from no impulses.
     void forget_contacts();

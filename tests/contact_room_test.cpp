@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "device/gl/contact_room.h"
+#include "saved_state.h"
 #include "step_results.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
@@ -406,6 +407,29 @@ TEST_P(ContactMemory, is_empty_after_a_step_that_broke_off_in_the_midst_of_the_s
     EXPECT_GT(read_contacts(poor.run->simulation).manifolds.size(), 4u);
     for (const auto& pose : poor.run->read<engine::BodyPose>(BufferId::Poses, 6))
         EXPECT_NEAR(pose.position.x, 0.0f, 0.01f);
+}
+
+TEST_P(ContactMemory, takes_back_what_was_saved_before_a_step_that_broke_off) {
+    for (const std::uint32_t steps : {5u, 6u}) { // the old contacts are the first half of the room, or the second
+        PoorRun poor(GetParam(), true), rich(GetParam(), true);
+        poor.run->step(steps);
+        rich.run->step(steps);
+        const uint count = poor.run->table.slot_count();
+        poor.run->table.poses = poor.run->read<engine::BodyPose>(BufferId::Poses, count);
+        poor.run->table.velocities = poor.run->read<engine::BodyVelocity>(BufferId::Velocities, count);
+        const engine::SavedState saved = engine::save_state(poor.run->simulation, poor.run->table, poor.run->settings);
+        poor.device->faulty = &engine::store_contact_impulses;
+        EXPECT_THROW(poor.run->step(), Error);
+        poor.device->faulty = nullptr;
+        poor.run->simulation.restore(saved);
+        poor.run->simulation.write(BufferId::Poses, 0, std::span<const engine::BodyPose>(saved.table.poses));
+        poor.run->simulation.write(BufferId::Velocities, 0,
+                                   std::span<const engine::BodyVelocity>(saved.table.velocities));
+        EXPECT_TRUE(read_contacts(poor.run->simulation).impulses == read_contacts(rich.run->simulation).impulses);
+        poor.run->step(3);
+        rich.run->step(3);
+        EXPECT_TRUE(poor.run->motion() == rich.run->motion()) << steps;
+    }
 }
 
 TEST_P(ContactMemory, has_the_constraints_of_the_last_step_between_steps) {

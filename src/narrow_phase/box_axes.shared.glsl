@@ -60,8 +60,9 @@ inline AxisQuery try_edges(AxisQuery best, vec2 edge, vec2 offset, vec2 half_a, 
     precise float square = edge.x * edge.x + edge.y * edge.y; // of the length of the cross product
     precise float reach = half_a.x * abs(edge.y) + half_a.y * abs(edge.x) + reach_b;
     precise float apart = abs(edge.x * offset.y - edge.y * offset.x) - reach;
-    // The cross product is no longer than one, so where the boxes overlap along it, it can be no better than this.
-    bool may_be_better = apart > 0.0f || apart + k_axis_persistence > best.score;
+    // The cross product is no longer than one, but for rounding, so where the boxes overlap along it, it can be no better than this.
+    precise float most = apart + k_axis_persistence;
+    bool may_be_better = apart > 0.0f || most > best.score;
     bool is_tried = square > k_parallel && may_be_better;
     if (any_lane(is_tried)) {
         precise float separation = apart * inverse_sqrt(square);

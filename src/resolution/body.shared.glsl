@@ -148,6 +148,9 @@ inline BodyWarmStart leave_out(BodyWarmStart kept, BodyVelocity before, BodyVelo
 
 // ---- hits ----
 
+// Where a body has them: behind the warm starts of all.
+inline uint hits_place(uint body, uint body_count) { return body_count + body; }
+
 // At the start of a sub-step, with the warm start that it begins with.
 inline BodyHits no_hits(BodyWarmStart warm)
 {
@@ -270,8 +273,8 @@ inline BodyVelocity stop(BodyVelocity velocity)
     return velocity;
 }
 
-// `shift`: BodyHits::shift. `falling`: falling_acceleration. What falls moves along its parabola, h v - h^2 a / 2 with the velocity that it has at
-// the end; what contacts hold moves by h v, as they were solved for.
+// `shift`: BodyHits::shift. `falling`: falling_acceleration. What falls moves along its parabola, h v - h^2 a / 2 with the
+// velocity that it has at the end; what contacts hold moves by h v, as they were solved for.
 inline BodyDelta integrate_position(BodyDelta delta, vec3 shift, BodyVelocity velocity, vec3 falling, float h)
 {
     precise float half_square = 0.5f * h * h;

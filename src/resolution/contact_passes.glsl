@@ -4,7 +4,8 @@
 //   BodyVelocity load_velocity(uint slot)
 //   void store_velocity(uint slot, BodyVelocity velocity)
 //   BodyDelta load_delta(uint body, uint slot)
-//   const bool k_bounces, whether there may be a restitution above 0; stored_hits.glsl if so, else no_hits.glsl
+//   const bool k_bounces, whether there may be a restitution above 0; then it includes stored_hits.glsl behind this file, else
+//     no_hits.glsl
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 //   const bool k_multirate_islands, whether a body may have more sub-steps than a contact of it
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is

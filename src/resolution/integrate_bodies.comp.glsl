@@ -2,7 +2,7 @@
 // One invocation is a body slot: the movement that ends a sub-step, and the forces that begin the next one.
 // args.x: the tick. args.y: 1 where something may bounce.
 // Reads: Properties, Loads, Inertias.
-// Writes: Velocities, Deltas, WarmStarts; Poses (flags) and Counters where a body is frozen.
+// Writes: Velocities, Deltas, WarmStarts (and hits behind them); Poses (flags) and Counters where a body is frozen.
 // Needs: a barrier after prepare_bodies, and after the pass before.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"

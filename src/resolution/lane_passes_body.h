@@ -48,7 +48,7 @@ TALUS_LANE void put_warm_starts(const CpuState& state, const std::uint32_t* bodi
 
 /// Behind all warm starts.
 TALUS_LANE engine::BodyWarmStart* hits_in(const CpuState& state) {
-    return state.warm_starts.data + state.parameters.body_count;
+    return state.warm_starts.data + engine::hits_place(0, state.parameters.body_count);
 }
 
 TALUS_LANE BodyProperties properties_at(const CpuState& state, const std::uint32_t* bodies) {

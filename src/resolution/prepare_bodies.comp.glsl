@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
 // Where its island sleeps it stops, and is left alone.
-// args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands.
+// args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands. args.z: 1 where something
+// bounces.
 // Reads: Counters, Poses, Velocities, Properties, Loads, Shapes, Substeps, IslandGroups, BodyColours.
-// Writes: Inertias, Deltas, WarmStarts, ToldLoads (none yet); LaunchedBodies, in any order, and Counters; Poses (flags) and
-// Velocities where a body falls asleep or wakes.
+// Writes: Inertias, Deltas, WarmStarts (and no hits behind them), ToldLoads (none yet); LaunchedBodies, in any order, and
+// Counters; Poses (flags) and Velocities where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -36,6 +37,7 @@ void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count) return;
+    if (args.z == 1u) warm_starts[hits_place(body, parameters.body_count)] = pack(no_warm_start()); // all zero, as no_hits
     told_loads[k_told_words * body + k_told_mass] = 0u;
     told_loads[k_told_words * body + k_told_height] = 0u;
     BodyPose pose = unpack(poses[body]);

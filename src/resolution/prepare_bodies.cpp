@@ -4,12 +4,14 @@
 
 #include "device/cpu/cpu_state.h"
 #include "resolution/resolution.h"
+#include "resolution/stored_hits.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
 
 static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(state.parameters.body_count, [&](uint body) {
+        if (launch.args[2] == 1) put_hits(state, body, no_hits(no_warm_start()));
         state.told_loads[k_told_words * body + k_told_mass] = 0;
         state.told_loads[k_told_words * body + k_told_height] = 0;
         BodyPose& pose = state.poses[body];

@@ -92,7 +92,9 @@ static void reserve_for_solve(Device& device, const StepPlan& plan) {
 void prepare(Device& device, const StepPlan& plan) {
     reserve_for_solve(device, plan); // may throw, and what follows cannot be undone
     device.begin_constraints();
-    device.run({.kernel = prepare_bodies, .slot = k_dispatch_bodies, .args = {plan.has_islands(), plan.has_groups()}});
+    device.run({.kernel = prepare_bodies,
+                .slot = k_dispatch_bodies,
+                .args = {plan.has_islands(), plan.has_groups(), plan.bounces}});
     run_on_near_pairs(device, plan, prepare_contacts);
 }
 

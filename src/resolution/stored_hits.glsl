@@ -2,17 +2,15 @@
 // What hits have to know of bodies, for kernels in which something may bounce; others have no_hits.glsl instead. It lies behind the
 // warm starts of all bodies, as some of these kernels have no room for another buffer. See contact_passes.glsl.
 
-uint hits_place(uint body) { return parameters.body_count + body; }
-
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
 BodyHits load_hits(uint body)
 {
-    BodyWarmStartCells cells = warm_starts[hits_place(body)];
+    BodyWarmStartCells cells = warm_starts[hits_place(body, parameters.body_count)];
     return unpack(BodyHitsCells(cells.cell_0, cells.cell_1));
 }
 
 void store_hits(uint body, BodyHits hits)
 {
     BodyHitsCells cells = pack(hits);
-    warm_starts[hits_place(body)] = BodyWarmStartCells(cells.cell_0, cells.cell_1);
+    warm_starts[hits_place(body, parameters.body_count)] = BodyWarmStartCells(cells.cell_0, cells.cell_1);
 }

@@ -11,11 +11,11 @@
 namespace talus::engine {
 
 inline BodyHits hits_of(const CpuState& state, uint body) {
-    return std::bit_cast<BodyHits>(state.warm_starts[state.parameters.body_count + body]);
+    return std::bit_cast<BodyHits>(state.warm_starts[hits_place(body, state.parameters.body_count)]);
 }
 
 inline void put_hits(const CpuState& state, uint body, const BodyHits& hits) {
-    state.warm_starts[state.parameters.body_count + body] = std::bit_cast<BodyWarmStart>(hits);
+    state.warm_starts[hits_place(body, state.parameters.body_count)] = std::bit_cast<BodyWarmStart>(hits);
 }
 
 } // namespace talus::engine
