@@ -63,7 +63,7 @@ struct GlRange {
     std::uint32_t buffer = 0; ///< its name
     std::uint64_t offset = 0; ///< bytes, where a storage block may begin on every driver
     std::uint64_t size = 0;   ///< bytes that there is room for
-    friend bool operator==(const GlRange&, const GlRange&) = default;
+    friend bool operator==(const GlRange&, const GlRange&) = default; ///< The same part of the same buffer.
 };
 
 /// OpenGL names of the buffers to draw from, without a copy. Valid until the next call that changes the world. Numbers
