@@ -577,19 +577,31 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     window_steps = window_overflow = window_launched = window_colours = window_substeps = window_hub_manifolds = 0;
 }
 
-void Simulation::make_room(void (Simulation::*grow)(uint), uint demand, uint wanted) {
+void Simulation::make_contact_room(uint pairs, uint manifolds) {
+    const uint pair_room = with_headroom(pairs, plan.pair_capacity);
+    // A larger share of manifolds: it is a smaller record, and each growth costs steps.
+    const uint manifold_room =
+        std::max(with_headroom(manifolds, plan.manifold_capacity, 2), likely_manifolds(pairs));
     try {
-        (this->*grow)(wanted);
+        grow_contacts(pair_room, std::min(manifold_room, std::max(pair_room, plan.pair_capacity)));
     } catch (const Error&) {
-        (this->*grow)(demand);
+        grow_contacts(pairs, manifolds);
     }
 }
 
-uint Simulation::likely_manifolds(uint pair_count) const {
+void Simulation::make_hub_room(uint manifolds) {
+    try {
+        reserve_hub_manifolds(with_headroom(manifolds, plan.hub_capacity));
+    } catch (const Error&) {
+        reserve_hub_manifolds(manifolds);
+    }
+}
+
+uint Simulation::likely_manifolds(uint pairs) const {
     const std::uint64_t pairs_before = report().pairs;
     if (pairs_before == 0) return 0;
-    const auto likely = static_cast<uint>(std::uint64_t{solved_count} * pair_count / pairs_before);
-    return std::min(with_headroom(likely, plan.manifold_capacity), plan.pair_capacity);
+    const auto likely = static_cast<uint>(std::uint64_t{solved_count} * pairs / pairs_before);
+    return with_headroom(likely, plan.manifold_capacity);
 }
 
 void Simulation::mend_velocities() {
@@ -658,17 +670,9 @@ void Simulation::redo(std::span<const uint> counters) {
                 "this GPU did not run work groups, or the invocations of one, side by side as they need, so a step "
                 "went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them meet at barriers instead");
         }
-        if ((reasons & k_fit_pairs) != 0) {
-            make_room(&Simulation::grow_pairs, pair_demand, with_headroom(pair_demand, plan.pair_capacity));
-            make_room(&Simulation::grow_manifolds, 0, likely_manifolds(pair_demand));
-        }
-        if ((reasons & k_fit_manifolds) != 0) { // a larger share: it is a smaller record, and each growth costs steps
-            const uint wanted = with_headroom(manifolds, plan.manifold_capacity, 2);
-            make_room(&Simulation::grow_manifolds, manifolds, std::min(wanted, plan.pair_capacity));
-        }
-        if ((reasons & k_fit_hubs) != 0)
-            make_room(&Simulation::reserve_hub_manifolds, hub_manifolds,
-                      with_headroom(hub_manifolds, plan.hub_capacity));
+        make_contact_room((reasons & k_fit_pairs) != 0 ? pair_demand : 0,
+                          (reasons & k_fit_manifolds) != 0 ? manifolds : 0);
+        if ((reasons & k_fit_hubs) != 0) make_hub_room(hub_manifolds);
     } catch (const Error&) {
         // The world is left as it was before these steps, but for what the caller has changed, and for what groups
         // which gave up have changed. Only what the last step's impulses were may be lost, if not what the next one

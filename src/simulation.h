@@ -150,12 +150,11 @@ private:
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
     void grow_contacts(uint pairs, uint manifolds);
-    void grow_pairs(uint count) { grow_contacts(count, 0); }
-    void grow_manifolds(uint count) { grow_contacts(0, count); }
+    /// For so many and some to spare, or at least for so many, at one go; 0: there is room.
+    void make_contact_room(uint pairs, uint manifolds);
+    void make_hub_room(uint manifolds);
     /// Room for them, if as many pairs touch as in the newest finished step, so that not each growth brings another.
-    uint likely_manifolds(uint pair_count) const;
-    /// For what is wanted, or at least for the demand.
-    void make_room(void (Simulation::*grow)(uint), uint demand, uint wanted);
+    uint likely_manifolds(uint pairs) const;
     void redo(std::span<const uint> counters);
     /// Of a step that has been enqueued in part, as a driver could not make one of its kernels.
     void abandon_step(const Population&);

@@ -78,9 +78,9 @@ GlDevice::Objects::Objects(bool profile, bool program_cache)
         // Never empty, so that every buffer can be bound.
         const std::size_t bytes = whole(k_cell_bytes, element_bytes(static_cast<BufferId>(i)));
         buffers[i] = GlBuffer(k_buffers[i].block, bytes);
-        buffers[i].zero(0, bytes);
+        uploads.zero(buffers[i]);
     }
-    parameters.zero(0, sizeof(Parameters));
+    uploads.zero(parameters);
 }
 
 GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile, bool program_cache)
@@ -130,7 +130,7 @@ void GlDevice::grow(BufferId id, std::size_t bytes) {
     order_after_kernels();
     GlBuffer grown(buffer_info(id).block, wanted);
     glCopyNamedBufferSubData(old.name(), grown.name(), 0, 0, static_cast<GLsizeiptr>(old.size()));
-    grown.zero(old.size(), wanted - old.size());
+    objects_->uploads.zero(grown, old.size());
     old = std::move(grown);
     bindings_.forget();
 }
@@ -155,7 +155,7 @@ void GlDevice::reserve_contacts(uint pairs, uint manifolds, bool keeps_old) {
     make_current();
     order_after_kernels();
     GlBuffer grown("Contacts", wanted.bytes());
-    grown.zero(0, grown.size());
+    objects_->uploads.zero(grown);
     for (const BufferId id : k_room_buffers) {
         if (wanted.is_covered(id) || (room && room->is_covered(id))) continue;
         const GlRange from = gl_range(id);

@@ -2,7 +2,6 @@
 // See gl_objects.h.
 #include "device/gl/gl_objects.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <talus/types.h>
@@ -44,22 +43,6 @@ GlBuffer& GlBuffer::operator=(GlBuffer&& other) noexcept {
 
 void GlBuffer::label(const std::string& text) const {
     glObjectLabel(GL_BUFFER, name_, -1, text.c_str());
-}
-
-// NVIDIA's driver seems to clear 1 GB/s or less, by the time that heaps took to grow, and copies far faster: so what is
-// zero is copied on and on.
-void GlBuffer::zero(std::size_t offset, std::size_t bytes) const {
-    constexpr std::size_t k_cleared = 64 * 1024;
-    std::size_t done = std::min(bytes, k_cleared);
-    if (done != 0)
-        glClearNamedBufferSubData(name_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(done),
-                                  GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
-    while (done < bytes) {
-        const std::size_t more = std::min(done, bytes - done);
-        glCopyNamedBufferSubData(name_, name_, static_cast<GLintptr>(offset), static_cast<GLintptr>(offset + done),
-                                 static_cast<GLsizeiptr>(more));
-        done += more;
-    }
 }
 
 GlFence GlFence::place() {

@@ -24,7 +24,6 @@ public:
     std::size_t size() const noexcept { return size_; }
     std::byte* mapped() const noexcept { return mapped_; }
     void label(const std::string&) const;
-    void zero(std::size_t offset, std::size_t bytes) const; ///< Both multiples of 4.
 
 private:
     GLuint name_ = 0;

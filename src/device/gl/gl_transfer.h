@@ -16,6 +16,8 @@ class UploadRing {
 public:
     UploadRing();
     void copy(GLuint target, std::size_t offset, std::span<const std::byte> bytes);
+    /// Makes all bytes of a buffer from `offset` on zero.
+    void zero(const GlBuffer& target, std::size_t offset = 0);
     std::size_t memory_bytes() const noexcept { return buffer_.size(); }
 
 private:
