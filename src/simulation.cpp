@@ -37,17 +37,18 @@ constexpr uint k_most_bodies_each = 48;
 // the GPU, they need longer than it does: then its invocations have more contacts, and others the multiprocessors.
 constexpr uint k_much_beside = 16;
 constexpr uint k_manifolds_each_beside = 4;
+// Pairs or manifolds. Growing these takes longer than a step; a quarter of them to spare is memory that nobody uses.
+constexpr uint k_large_demand = 131'072;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
 
 constexpr std::array k_body_buffers{
     BufferId::Poses,        BufferId::Velocities,   BufferId::Shapes,        BufferId::Properties,
     BufferId::Loads,        BufferId::Aabbs,        BufferId::SortKeys,      BufferId::SortValues,
-    BufferId::PairCounts,   BufferId::SortedAabbs,  BufferId::Inertias,      BufferId::WarmStarts,
-    BufferId::Deltas,       BufferId::Islands,      BufferId::Substeps,      BufferId::Hubs,
-    BufferId::IslandSizes,  BufferId::IslandStarts, BufferId::IslandGroups,  BufferId::IslandFill,
-    BufferId::IslandBodies, BufferId::IslandPlaces, BufferId::OrientedBoxes, BufferId::LaunchedBodies,
-    BufferId::Starts,
+    BufferId::PairCounts,   BufferId::Inertias,     BufferId::WarmStarts,    BufferId::Deltas,
+    BufferId::Islands,      BufferId::Substeps,     BufferId::Hubs,          BufferId::IslandSizes,
+    BufferId::IslandStarts, BufferId::IslandGroups, BufferId::IslandFill,    BufferId::IslandBodies,
+    BufferId::IslandPlaces, BufferId::Starts,       BufferId::OrientedBoxes, BufferId::LaunchedBodies,
 };
 
 constexpr std::array k_pair_buffers{
@@ -104,10 +105,11 @@ bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
            plan.may_be_multirate() == other.may_be_multirate();
 }
 
-/// What comes bit by bit goes on, and gets one part in `share` more; what comes all at once is what the caller has put
-/// together.
+/// What comes bit by bit goes on, and gets one part in `share` more, of which a large world needs less; what comes all
+/// at once is what the caller has put together.
 uint with_headroom(uint demand, uint capacity, uint share = 4) {
-    return demand + demand / (demand / 2 > capacity ? 16 : share);
+    if (demand / 2 > capacity) return demand + demand / 16;
+    return demand + demand / (demand < k_large_demand ? share : 8);
 }
 
 } // namespace
@@ -206,6 +208,7 @@ void Simulation::reserve_bodies(uint count) {
     grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words} * capacity);
     if (settings.sleeping) grow_everywhere(BufferId::Rests, capacity);
     body_capacity = capacity;
+    grow_contacts(0, 0); // PairTable, in which the search keeps partners of bodies
 }
 
 void Simulation::reserve_pairs(uint count) {
@@ -220,9 +223,12 @@ void Simulation::grow_contacts(uint pairs, uint manifolds) {
     const uint table_size = std::bit_ceil(2 * pair_capacity);
     for (const BufferId buffer : k_pair_buffers)
         grow_everywhere(buffer, pair_capacity);
-    grow_everywhere(BufferId::PairTable, table_size);
-    placement.resolution->reserve_contacts(pair_capacity, manifold_capacity, watches_contacts());
-    if (placement.hybrid()) placement.detection->reserve_contacts(pair_capacity, 0, false); // where nothing is solved
+    ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, k_kept_partners * body_capacity),
+                         watches_contacts()};
+    placement.resolution->reserve_contacts(demand);
+    demand.manifolds = 0; // nothing is solved, and no watch told, on the other one
+    demand.keeps_old = false;
+    if (placement.hybrid()) placement.detection->reserve_contacts(demand);
     plan.pair_capacity = pair_capacity; // only now: a buffer may have no room
     plan.manifold_capacity = manifold_capacity;
     plan.table_size = table_size;

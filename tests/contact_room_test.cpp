@@ -18,13 +18,13 @@ namespace talus::tests {
 namespace {
 
 using engine::BufferId;
+using engine::ContactDemand;
 using engine::ContactRoom;
 using engine::uint;
 
-/// Those of the room but for Constraints.
 std::vector<BufferId> all_contacts() {
-    std::vector<BufferId> all(engine::k_room_buffers.begin(), engine::k_room_buffers.end());
-    std::erase(all, BufferId::Constraints);
+    std::vector<BufferId> all(engine::k_contact_buffers.begin(), engine::k_contact_buffers.end());
+    all.insert(all.end(), engine::k_old_contact_buffers.begin(), engine::k_old_contact_buffers.end());
     return all;
 }
 
@@ -44,23 +44,38 @@ std::vector<ContactRoom> ways(ContactRoom room) {
     return all;
 }
 
-struct Size {
-    uint pairs, manifolds;
-};
-constexpr std::array k_sizes{Size{0, 0},   Size{1, 1},     Size{3, 0},      Size{3, 3},
-                             Size{64, 64}, Size{100, 900}, Size{1000, 600}, Size{1000, 1000}};
+ContactRoom room_for(uint pairs, uint manifolds, bool keeps_old, uint table_size = 0) {
+    return ContactRoom({pairs, manifolds, table_size, keeps_old});
+}
+
+constexpr std::array<ContactDemand, 10> k_sizes{{{0, 0, 0},
+                                                 {1, 1, 2},
+                                                 {3, 0, 8},
+                                                 {3, 3, 8},
+                                                 {64, 64, 128},
+                                                 {100, 900, 256},
+                                                 {1000, 600, 2048},
+                                                 {1000, 600, 65'536},
+                                                 {1000, 1000, 2048},
+                                                 {1000, 1000, 65'536}}};
 
 // ---- places ----
 
 TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_constraints_over_what_is_dead) {
-    for (const Size size : k_sizes) {
+    for (const ContactDemand& size : k_sizes) {
         for (const bool keeps_old : {false, true}) {
-            for (const ContactRoom& room : ways(ContactRoom(size.pairs, size.manifolds, keeps_old))) {
+            for (const ContactRoom& room : ways(room_for(size.pairs, size.manifolds, keeps_old, size.table_size))) {
                 SCOPED_TRACE(testing::Message() << size.pairs << " pairs, " << size.manifolds << " manifolds");
                 const ContactRoom::Place constraints = room.place(BufferId::Constraints);
                 EXPECT_GE(constraints.bytes, size.manifolds * sizeof(engine::ContactConstraint));
                 EXPECT_LE(constraints.offset + constraints.bytes, room.bytes());
                 EXPECT_EQ(constraints.offset % 256, 0u);
+                const ContactRoom::Place table = room.place(BufferId::PairTable);
+                EXPECT_GT(table.bytes, 0u);
+                EXPECT_GE(table.bytes, size.table_size * sizeof(uint));
+                EXPECT_LE(table.offset + table.bytes, room.bytes());
+                EXPECT_EQ(table.offset % 256, 0u);
+                EXPECT_FALSE(keeps_old && overlap(table, constraints)) << "the end of a step reads both";
                 for (const BufferId id : all_contacts()) {
                     const ContactRoom::Place place = room.place(id);
                     EXPECT_EQ(place.offset % 256, 0u);
@@ -68,6 +83,7 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                     EXPECT_GE(place.bytes, size.pairs * engine::bytes_a_pair(id));
                     EXPECT_LE(place.offset + place.bytes, room.bytes());
                     EXPECT_TRUE(room.is_covered(id) || !overlap(place, constraints));
+                    EXPECT_FALSE(overlap(place, table)) << "it is made while all contacts are there";
                     for (const BufferId other : all_contacts())
                         EXPECT_EQ(overlap(place, room.place(other)), id == other);
                 }
@@ -77,7 +93,7 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
 }
 
 TEST(ContactRooms, have_constraints_over_the_old_contacts_in_a_step_and_over_the_new_ones_between_steps) {
-    ContactRoom room(100, 100, false);
+    ContactRoom room = room_for(100, 100, false);
     EXPECT_TRUE(room.is_covered(BufferId::Manifolds));
     EXPECT_FALSE(room.is_covered(BufferId::OldManifolds));
     for (int step = 0; step < 3; ++step) {
@@ -99,40 +115,51 @@ TEST(ContactRooms, have_constraints_over_the_old_contacts_in_a_step_and_over_the
 }
 
 TEST(ContactRooms, cover_nothing_where_the_old_contacts_are_kept) {
-    for (const ContactRoom& room : ways(ContactRoom(100, 100, true)))
+    for (const ContactRoom& room : ways(room_for(100, 100, true)))
         for (const BufferId id : all_contacts())
             EXPECT_FALSE(room.is_covered(id));
 }
 
 TEST(ContactRooms, need_memory_for_constraints_only_where_these_are_longer_than_the_contacts_below) {
     constexpr uint pairs = 256 * 32; // whole numbers of all that places are rounded to
-    EXPECT_EQ(ContactRoom(pairs, 0, false).bytes(), 2u * 176 * pairs);
-    EXPECT_EQ(ContactRoom(pairs, pairs * 11 / 16, false).bytes(), 2u * 176 * pairs);
-    EXPECT_EQ(ContactRoom(pairs, pairs, false).bytes(), (176u + 256u) * pairs);
-    EXPECT_EQ(ContactRoom(pairs, pairs, true).bytes(), (2u * 176u + 256u) * pairs);
-    EXPECT_EQ(ContactRoom(pairs, pairs / 4, true).bytes(), (2u * 176u + 64u) * pairs);
+    constexpr uint least_table = 256;
+    EXPECT_EQ(room_for(pairs, 0, false).bytes(), 2u * 176 * pairs + least_table);
+    EXPECT_EQ(room_for(pairs, pairs * 11 / 16, false).bytes(), 2u * 176 * pairs + least_table);
+    EXPECT_EQ(room_for(pairs, pairs, false).bytes(), (176u + 256u) * pairs);
+    EXPECT_EQ(room_for(pairs, pairs, true).bytes(), (2u * 176u + 256u) * pairs + least_table);
+    EXPECT_EQ(room_for(pairs, pairs / 4, true).bytes(), (2u * 176u + 64u) * pairs + least_table);
+}
+
+TEST(ContactRooms, need_memory_for_the_table_only_where_it_is_longer_than_what_constraints_need_besides) {
+    constexpr uint pairs = 256 * 32;
+    const std::size_t bytes = room_for(pairs, pairs, false).bytes();
+    EXPECT_EQ(room_for(pairs, pairs, false, 4 * pairs).bytes(), bytes);
+    EXPECT_EQ(room_for(pairs, 0, false, 4 * pairs).bytes(), (2u * 176 + 16) * pairs);
+    EXPECT_EQ(room_for(pairs, pairs, true, 4 * pairs).bytes(), (2u * 176u + 256u + 16u) * pairs);
+    const ContactRoom room = room_for(pairs, pairs, false);
+    EXPECT_TRUE(room.grown({pairs, pairs, 4 * pairs}).has_places_of(room));
 }
 
 TEST(ContactRooms, that_grow_have_the_same_parts_alive_and_never_shrink) {
     for (const bool keeps_old : {false, true}) {
-        for (const ContactRoom& room : ways(ContactRoom(100, 60, keeps_old))) {
-            EXPECT_TRUE(room.grown(1, 1, false).has_places_of(room));
-            EXPECT_EQ(room.grown(1, 1, false).place(BufferId::Constraints).bytes,
+        for (const ContactRoom& room : ways(room_for(100, 60, keeps_old))) {
+            EXPECT_TRUE(room.grown({1, 1, 0, false}).has_places_of(room));
+            EXPECT_EQ(room.grown({1, 1, 0, false}).place(BufferId::Constraints).bytes,
                       room.place(BufferId::Constraints).bytes);
-            const ContactRoom larger = room.grown(300, 200, false);
+            const ContactRoom larger = room.grown({300, 200, 0, false});
             EXPECT_FALSE(larger.has_places_of(room));
             for (const BufferId id : all_contacts()) {
                 EXPECT_EQ(larger.is_covered(id), room.is_covered(id));
                 EXPECT_GT(larger.place(id).bytes, room.place(id).bytes);
             }
-            EXPECT_EQ(room.grown(1, 1, true).has_places_of(room), keeps_old);
+            EXPECT_EQ(room.grown({1, 1, 0, true}).has_places_of(room), keeps_old);
         }
     }
     // Constraints that get longer over the same contacts.
-    const ContactRoom room(1000, 10, false);
-    EXPECT_TRUE(room.grown(0, 600, false).has_places_of(room));
-    EXPECT_GT(room.grown(0, 600, false).place(BufferId::Constraints).bytes, room.place(BufferId::Constraints).bytes);
-    EXPECT_FALSE(room.grown(0, 1000, false).has_places_of(room));
+    const ContactRoom room = room_for(1000, 10, false);
+    EXPECT_TRUE(room.grown({0, 600, 0, false}).has_places_of(room));
+    EXPECT_GT(room.grown({0, 600, 0, false}).place(BufferId::Constraints).bytes, room.place(BufferId::Constraints).bytes);
+    EXPECT_FALSE(room.grown({0, 1000, 0, false}).has_places_of(room));
 }
 
 // ---- content ----
@@ -183,7 +210,7 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
         device->grow(id, 2 * engine::bytes_a_pair(id));
     device->grow(BufferId::Constraints, 32 * sizeof(engine::ContactConstraint));
     write();
-    device->reserve_contacts(10, 32, false);
+    device->reserve_contacts({10, 32, 4 * 10, false});
     check();
     uint pairs = 10;
     for (const bool keeps_old : {false, false, true, true, false}) {
@@ -193,9 +220,9 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
             write();
             check();
             pairs *= 2;
-            device->reserve_contacts(pairs, pairs / 3, keeps_old);
+            device->reserve_contacts({pairs, pairs / 3, 4 * pairs, keeps_old});
             check();
-            device->reserve_contacts(pairs, pairs, keeps_old);
+            device->reserve_contacts({pairs, pairs, 4 * pairs, keeps_old});
             check();
         }
     }
@@ -302,12 +329,12 @@ class PoorDevice final : public StandInDevice {
 public:
     using StandInDevice::StandInDevice;
 
-    Size most{engine::k_none, engine::k_none}; // that there is room for
+    ContactDemand most{engine::k_none, engine::k_none}; // that there is room for
     const engine::Kernel* faulty = nullptr;
 
-    void reserve_contacts(uint pairs, uint manifolds, bool keeps_old) override {
-        if (pairs > most.pairs || manifolds > most.manifolds) throw Error("no room");
-        StandInDevice::reserve_contacts(pairs, manifolds, keeps_old);
+    void reserve_contacts(const ContactDemand& demand) override {
+        if (demand.pairs > most.pairs || demand.manifolds > most.manifolds) throw Error("no room");
+        StandInDevice::reserve_contacts(demand);
     }
     void run(const engine::Launch& launch) override {
         if (&launch.kernel == faulty) throw Error("no kernel");
@@ -359,7 +386,7 @@ struct PoorRun {
 };
 
 TEST_P(ContactMemory, is_as_it_was_after_a_step_for_which_there_is_no_room) {
-    const std::map<const char*, Size> lacks{{"pairs", {8, 8}}, // known before contacts are found, or behind it
+    const std::map<const char*, ContactDemand> lacks{{"pairs", {8, 8}}, // known before contacts are found, or behind it
                                             {"manifolds", {engine::k_none, 8}}};
     for (const auto& [what, most] : lacks) {
         SCOPED_TRACE(what);

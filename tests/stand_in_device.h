@@ -31,9 +31,7 @@ public:
     }
     void read(std::span<const engine::ReadRequest> requests) override { device->read(requests); }
     void swap(engine::BufferId a, engine::BufferId b) override { device->swap(a, b); }
-    void reserve_contacts(engine::uint pairs, engine::uint manifolds, bool keeps_old) override {
-        device->reserve_contacts(pairs, manifolds, keeps_old);
-    }
+    void reserve_contacts(const engine::ContactDemand& demand) override { device->reserve_contacts(demand); }
     void begin_constraints() override { device->begin_constraints(); }
     bool has_old_contacts() const override { return device->has_old_contacts(); }
     void swap_contacts() override { device->swap_contacts(); }

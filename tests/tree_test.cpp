@@ -270,7 +270,7 @@ TEST_P(Tree, is_that_of_the_cpu_word_by_word) {
         {BufferId::SortKeys, k_count},
         {BufferId::SortValues, k_count},
         {BufferId::TreeNodes, 8 * (std::size_t{first_leaf} + k_count)},
-        {BufferId::Partners, std::size_t{engine::k_kept_partners} * k_count},
+        {BufferId::PairTable, std::size_t{engine::k_kept_partners} * k_count},
         {BufferId::PairCounts, k_count},
         {BufferId::Pairs, 2 * std::size_t{pair_count}},
     };

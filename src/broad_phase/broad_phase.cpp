@@ -27,16 +27,21 @@ static void sort_along_widest_axis(Device& device, uint body_count) {
     device.run({.kernel = gather_aabbs, .items = body_count});
 }
 
+static uint body_capacity(const Device& device) {
+    return static_cast<uint>(device.size(BufferId::Aabbs) / sizeof(Aabb));
+}
+
 // Only worlds that use the tree have room for it, as much as for bodies.
 static void reserve_tree(Device& device) {
-    const auto capacity = static_cast<uint>(device.size(BufferId::Aabbs) / sizeof(Aabb));
-    const auto reserve = [&](BufferId buffer, std::size_t bytes) {
-        if (device.size(buffer) < bytes) device.grow(buffer, bytes);
-    };
+    const uint capacity = body_capacity(device);
     // Children are looked at by fours, also where the last ones are not there.
     const std::size_t leaves = std::size_t{capacity} + k_tree_children - 1;
-    reserve(BufferId::TreeNodes, (tree_node(0, 0, tree_top(capacity)) + leaves) * sizeof(Aabb));
-    reserve(BufferId::Partners, std::size_t{k_kept_partners} * capacity * sizeof(uint));
+    device.grow(BufferId::TreeNodes, (tree_node(0, 0, tree_top(capacity)) + leaves) * sizeof(Aabb));
+}
+
+// And only those that sweep, for boxes in order.
+static void reserve_sweep(Device& device) {
+    device.grow(BufferId::SortedAabbs, std::size_t{body_capacity(device)} * sizeof(Aabb));
 }
 
 static void make_tree(Device& device, uint body_count, uint top) {
@@ -54,9 +59,11 @@ static void make_tree(Device& device, uint body_count, uint top) {
 // Counting first gives each body's pairs a place that does not depend on who comes first.
 static void find_pairs(Device& device, const Kernel& kernel, uint body_count, uint tree_top = 0) {
     constexpr uint count = 0, write = 1;
-    device.run({.kernel = kernel, .items = body_count, .args = {count, tree_top}});
+    // What the search of a tree remembers lies where the narrow phase, behind it, has its table.
+    const std::initializer_list<Binding> bindings{{"Partners", BufferId::PairTable}};
+    device.run({.kernel = kernel, .items = body_count, .args = {count, tree_top}, .bindings = bindings});
     exclusive_scan(device, BufferId::PairCounts, body_count, k_counter_search_count, k_counter_found_pairs);
-    device.run({.kernel = kernel, .items = body_count, .args = {write, tree_top}});
+    device.run({.kernel = kernel, .items = body_count, .args = {write, tree_top}, .bindings = bindings});
 }
 
 static void search_all(Device& device, const StepPlan& plan) {
@@ -69,6 +76,7 @@ static void search_all(Device& device, const StepPlan& plan) {
         make_tree(device, plan.body_count, top);
         find_pairs(device, search_tree, plan.body_count, top);
     } else {
+        reserve_sweep(device);
         sort_along_widest_axis(device, plan.body_count);
         find_pairs(device, sweep_pairs, plan.body_count);
     }
@@ -78,6 +86,7 @@ static void search_all(Device& device, const StepPlan& plan) {
 // does.
 static void search(Device& device, const StepPlan& plan) {
     if (plan.search == Search::All && plan.sweeps_in_group()) {
+        reserve_sweep(device);
         device.run({.kernel = order_bodies, .items = 1});
         device.run({.kernel = sweep_in_group, .items = 1});
         return;

@@ -10,6 +10,7 @@ namespace talus::engine {
 
 static void search_tree_on_cpu(CpuState& state, const Launch& launch) {
     if (state.counters[k_counter_search_count] == 0) return;
+    const Array<uint> partners = state.words(launch.bound("Partners"));
     const bool writing = launch.args[0] == 1;
     const uint top = launch.args[1];
     const uint body_count = state.parameters.body_count;
@@ -24,14 +25,14 @@ static void search_tree_on_cpu(CpuState& state, const Launch& launch) {
         const auto take = [&](uint partner) {
             if (writing && offset + found < state.parameters.pair_capacity)
                 state.pairs[offset + found] = make_pair(body, state.sort_values[partner]);
-            if (!writing && found < k_kept_partners) state.partners[found * body_count + own] = partner;
+            if (!writing && found < k_kept_partners) partners[found * body_count + own] = partner;
             ++found;
         };
         uint place = own + 1;
         if (writing) {
             const uint count = offset_of(own + 1) - offset;
             while (found < std::min(count, k_kept_partners)) {
-                place = state.partners[found * body_count + own] + 1;
+                place = partners[found * body_count + own] + 1;
                 take(place - 1);
             }
             if (count <= k_kept_partners) return;

@@ -18,11 +18,12 @@ BufferId Launch::bound(const char* block) const {
 }
 
 // A device may do with less memory: here each buffer is one of its own.
-void Device::reserve_contacts(uint pairs, uint manifolds, bool) {
+void Device::reserve_contacts(const ContactDemand& demand) {
     for (const auto& buffers : {k_contact_buffers, k_old_contact_buffers})
         for (const BufferId buffer : buffers)
-            grow(buffer, pairs * bytes_a_pair(buffer));
-    grow(BufferId::Constraints, manifolds * sizeof(ContactConstraint));
+            grow(buffer, demand.pairs * bytes_a_pair(buffer));
+    grow(BufferId::Constraints, demand.manifolds * sizeof(ContactConstraint));
+    grow(BufferId::PairTable, demand.table_size * sizeof(uint));
 }
 
 void Device::swap_contacts() {

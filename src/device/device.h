@@ -54,6 +54,14 @@ constexpr std::size_t bytes_a_pair(BufferId id) {
     return (has_points ? 4 : 1) * k_buffers[static_cast<std::size_t>(id)].stride;
 }
 
+/// Room that contacts are to have; see Device::reserve_contacts.
+struct ContactDemand {
+    uint pairs = 0;
+    uint manifolds = 0;
+    uint table_size = 0;    ///< words of PairTable
+    bool keeps_old = false; ///< Constraints never lie over the old contacts, as the end of a step reads them
+};
+
 /// A parameterised kernel's block and the buffer that it stands for in this launch (primitives have such blocks).
 struct Binding {
     const char* block;
@@ -120,12 +128,12 @@ public:
     virtual void read(std::span<const ReadRequest>) = 0;
     virtual void swap(BufferId, BufferId) = 0;
 
-    /// Gives the buffers of contacts, and Constraints, room for at least so many pairs and manifolds. From then on they
-    /// grow and are swapped together, and Constraints may lie over contacts that nobody wants any more: from
-    /// begin_constraints on over the old ones, and from swap_contacts on over the new ones, until kernels write these.
-    /// Constraints and what they do not lie over keep their content. `keeps_old`: they never lie over the old ones, as
-    /// the end of a step reads them; that holds for good.
-    virtual void reserve_contacts(uint pairs, uint manifolds, bool keeps_old);
+    /// Gives the buffers of contacts, Constraints and PairTable at least that room. From then on they grow and are
+    /// swapped together, and Constraints may lie over contacts that nobody wants any more: from begin_constraints on over
+    /// the old ones, and from swap_contacts on over the new ones, until kernels write these. PairTable may lie over
+    /// Constraints, so that each is there until kernels write the other. Constraints and contacts that they do not
+    /// lie over keep their content. Old contacts are kept for good once they are.
+    virtual void reserve_contacts(const ContactDemand&);
     /// Kernels that are given from here on write Constraints; those that read the old contacts need keeps_old.
     virtual void begin_constraints() {}
     /// Whether nothing may have been written over the old contacts.

@@ -41,7 +41,6 @@ namespace talus::engine {
     X(SortedAabbs, sorted_aabbs, Aabb, "fffffffu", Result)                                                             \
     X(TreeGrids, tree_grids, TreeGrid, "fffffuuu", Result)                                                             \
     X(TreeNodes, tree_nodes, Aabb, "fffffffu", Result)                                                                 \
-    X(Partners, partners, uint, "u", Result)                                                                           \
     X(PairCounts, pair_counts, uint, "u", Result)                                                                      \
     X(ScanSums, scan_sums, uint, "u", Scratch)                                                                         \
     X(Pairs, pairs, Pair, "uu", State)                                                                                 \

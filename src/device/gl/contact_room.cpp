@@ -25,34 +25,40 @@ bool is_one_of(const auto& buffers, BufferId id) {
 
 } // namespace
 
-void ContactRoom::fit(uint pairs, uint manifolds, bool keeps_old) {
-    pairs_ = std::max({pairs, pairs_, 1u});
-    manifolds_ = std::max({manifolds, manifolds_, 1u});
-    keeps_old_ = keeps_old || keeps_old_;
+void ContactRoom::fit(const ContactDemand& demand) {
+    demand_.pairs = std::max({demand.pairs, demand_.pairs, 1u});
+    demand_.manifolds = std::max({demand.manifolds, demand_.manifolds, 1u});
+    demand_.table_size = std::max({demand.table_size, demand_.table_size, 1u});
+    demand_.keeps_old = demand.keeps_old || demand_.keeps_old;
     arrays_bytes_ = 0;
     for (const BufferId buffer : k_contact_buffers)
-        arrays_bytes_ += aligned(pairs_ * bytes_a_pair(buffer));
-    const std::size_t blocks = (manifolds_ + k_block_records - 1) / k_block_records;
+        arrays_bytes_ += aligned(demand_.pairs * bytes_a_pair(buffer));
+    const std::size_t blocks = (demand_.manifolds + k_block_records - 1) / k_block_records;
     constraint_bytes_ = blocks * element_bytes(BufferId::Constraints);
+    table_bytes_ = aligned(demand_.table_size * element_bytes(BufferId::PairTable));
 }
 
 std::size_t ContactRoom::gap_bytes() const {
-    return keeps_old_ ? 0 : std::max(constraint_bytes_, arrays_bytes_) - arrays_bytes_;
+    if (demand_.keeps_old) return 0;
+    return std::max(std::max(constraint_bytes_, arrays_bytes_) - arrays_bytes_, table_bytes_);
 }
 
 std::size_t ContactRoom::bytes() const {
-    return 2 * arrays_bytes_ + (keeps_old_ ? constraint_bytes_ : gap_bytes());
+    return 2 * arrays_bytes_ + (demand_.keeps_old ? constraint_bytes_ + table_bytes_ : gap_bytes());
 }
 
 ContactRoom::Place ContactRoom::place(BufferId id) const {
+    const std::size_t behind = 2 * arrays_bytes_;
     if (id == BufferId::Constraints) {
         const bool over_start = over_old_ == starts_with_old_;
-        return {keeps_old_ ? 2 * arrays_bytes_ : over_start ? 0 : arrays_bytes_, constraint_bytes_};
+        return {demand_.keeps_old ? behind : over_start ? 0 : arrays_bytes_, constraint_bytes_};
     }
+    if (id == BufferId::PairTable)
+        return {demand_.keeps_old ? behind + constraint_bytes_ : arrays_bytes_, table_bytes_};
     const bool is_old = is_one_of(k_old_contact_buffers, id);
     Place place{is_old == starts_with_old_ ? 0 : arrays_bytes_ + gap_bytes(), 0};
     for (const BufferId buffer : is_old ? k_old_contact_buffers : k_contact_buffers) {
-        place.bytes = pairs_ * bytes_a_pair(buffer);
+        place.bytes = demand_.pairs * bytes_a_pair(buffer);
         if (buffer == id) return place;
         place.offset += aligned(place.bytes);
     }
@@ -61,18 +67,19 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
 }
 
 bool ContactRoom::is_covered(BufferId id) const {
-    return !keeps_old_ && is_one_of(over_old_ ? k_old_contact_buffers : k_contact_buffers, id);
+    if (id == BufferId::PairTable) return true;
+    return !demand_.keeps_old && is_one_of(over_old_ ? k_old_contact_buffers : k_contact_buffers, id);
 }
 
-ContactRoom ContactRoom::grown(uint pairs, uint manifolds, bool keeps_old) const {
+ContactRoom ContactRoom::grown(const ContactDemand& demand) const {
     ContactRoom larger = *this;
-    larger.fit(pairs, manifolds, keeps_old);
+    larger.fit(demand);
     return larger;
 }
 
 bool ContactRoom::has_places_of(const ContactRoom& other) const {
-    return pairs_ == other.pairs_ && keeps_old_ == other.keeps_old_ && starts_with_old_ == other.starts_with_old_ &&
-           over_old_ == other.over_old_ && bytes() == other.bytes();
+    return demand_.pairs == other.demand_.pairs && demand_.keeps_old == other.demand_.keeps_old &&
+           starts_with_old_ == other.starts_with_old_ && over_old_ == other.over_old_ && bytes() == other.bytes();
 }
 
 void ContactRoom::swap() {

@@ -4,10 +4,12 @@
 //
 //     [ four arrays ][ gap, where the constraints are longer than these ][ four arrays ]
 //
+// PairTable lies in the gap, which is as long as that at least: constraints are not wanted any more when the broad phase begins
+// to use it, and the table is not when they are made.
 // The arrays at the start are the new contacts and those at the end the old ones, or the other way round: swap makes
 // the new ones old. The constraints lie over the one or the other, and over the gap: in a step over the old contacts
 // from begin_constraints on, and over the new ones from its end until the next narrow phase. Where the end of a step
-// needs the old contacts, there is no gap, and the constraints lie behind all of these.
+// needs the old contacts, and the table, there is no gap, and the constraints and the table lie behind all of these.
 //
 // This only reckons; see GlDevice for the buffer.
 #pragma once
@@ -18,12 +20,13 @@ namespace talus::engine {
 
 /// What lies in it.
 inline constexpr auto k_room_buffers = [] {
-    std::array<BufferId, 2 * k_contact_buffers.size() + 1> all{};
+    std::array<BufferId, 2 * k_contact_buffers.size() + 2> all{};
     for (std::size_t i = 0; i < k_contact_buffers.size(); ++i) {
         all[2 * i] = k_contact_buffers[i];
         all[2 * i + 1] = k_old_contact_buffers[i];
     }
-    all.back() = BufferId::Constraints;
+    all[2 * k_contact_buffers.size()] = BufferId::Constraints;
+    all.back() = BufferId::PairTable;
     return all;
 }();
 
@@ -35,18 +38,17 @@ public:
         std::size_t bytes = 0;
     };
 
-    /// For contacts of so many pairs and the constraints of so many manifolds. A block may begin at each of the places,
-    /// and none is empty.
-    ContactRoom(uint pairs, uint manifolds, bool keeps_old) { fit(pairs, manifolds, keeps_old); }
+    /// A block may begin at each of the places, and none is empty.
+    explicit ContactRoom(const ContactDemand& demand) { fit(demand); }
 
     std::size_t bytes() const;
     Place place(BufferId) const;
-    /// Whether the constraints lie over it, so that its content means nothing.
+    /// Whether its content means nothing, as the constraints lie over it, or it is the table.
     bool is_covered(BufferId) const;
 
     /// Room for at least so many, with the same arrays at the start and the same ones covered. Once the old contacts
     /// are kept they remain so.
-    ContactRoom grown(uint pairs, uint manifolds, bool keeps_old) const;
+    ContactRoom grown(const ContactDemand&) const;
     /// Whether everything begins where it does in the other one, in a buffer as long.
     bool has_places_of(const ContactRoom&) const;
 
@@ -54,14 +56,13 @@ public:
     void swap();
 
 private:
-    void fit(uint pairs, uint manifolds, bool keeps_old);
+    void fit(const ContactDemand&);
     std::size_t gap_bytes() const;
 
-    uint pairs_ = 0;
-    uint manifolds_ = 0;
-    bool keeps_old_ = false;
+    ContactDemand demand_;         // the most so far, of each
     std::size_t arrays_bytes_ = 0; // of the new contacts, or of the old ones
     std::size_t constraint_bytes_ = 0;
+    std::size_t table_bytes_ = 0;
 
     bool starts_with_old_ = true;
     bool over_old_ = false; // where the constraints lie

@@ -142,10 +142,9 @@ void GlDevice::check_block_size(BufferId id, std::size_t bytes) const {
                     std::to_string(max_block_bytes_) + " bytes at most");
 }
 
-void GlDevice::reserve_contacts(uint pairs, uint manifolds, bool keeps_old) {
+void GlDevice::reserve_contacts(const ContactDemand& demand) {
     std::optional<ContactRoom>& room = objects_->room;
-    const ContactRoom wanted =
-        room ? room->grown(pairs, manifolds, keeps_old) : ContactRoom(pairs, manifolds, keeps_old);
+    const ContactRoom wanted = room ? room->grown(demand) : ContactRoom(demand);
     for (const BufferId id : k_room_buffers)
         check_block_size(id, wanted.place(id).bytes);
     if (room && wanted.has_places_of(*room)) {

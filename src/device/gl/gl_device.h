@@ -37,7 +37,7 @@ public:
     void write(BufferId, std::size_t offset, std::span<const std::byte>) override;
     void read(std::span<const ReadRequest>) override;
     void swap(BufferId, BufferId) override;
-    void reserve_contacts(uint pairs, uint manifolds, bool keeps_old) override;
+    void reserve_contacts(const ContactDemand&) override;
     void begin_constraints() override;
     bool has_old_contacts() const override;
     void swap_contacts() override;

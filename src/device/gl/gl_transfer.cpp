@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <vector>
 
 namespace talus::engine {
 namespace {
@@ -59,20 +60,46 @@ void ReadBack::read(std::span<const Request> requests) {
     for (const Request& request : requests)
         total += aligned(request.bytes);
     if (total == 0) return;
-    if (total > buffer_.size()) buffer_ = GlBuffer("ReadBack", std::bit_ceil(total), GL_MAP_READ_BIT | k_mapped);
+    const std::size_t wanted = total <= k_segment_bytes ? std::bit_ceil(total) : 2 * k_segment_bytes;
+    if (wanted > buffer_.size()) buffer_ = GlBuffer("ReadBack", wanted, GL_MAP_READ_BIT | k_mapped);
 
-    std::size_t place = 0;
+    struct Piece {
+        std::size_t place;
+        std::byte* destination;
+        std::size_t bytes;
+    };
+    struct Segment {
+        GlFence fence;
+        std::vector<Piece> pieces;
+    };
+    std::array<Segment, 2> segments;
+    const auto take = [&](Segment& segment) {
+        segment.fence.wait();
+        for (const Piece& piece : segment.pieces)
+            std::memcpy(piece.destination, buffer_.mapped() + piece.place, piece.bytes);
+        segment.pieces.clear();
+    };
+    std::size_t filling = 0, used = 0;
     for (const Request& request : requests) {
-        glCopyNamedBufferSubData(request.source, buffer_.name(), static_cast<GLintptr>(request.offset),
-                                 static_cast<GLintptr>(place), static_cast<GLsizeiptr>(request.bytes));
-        place += aligned(request.bytes);
+        for (std::size_t done = 0; done < request.bytes;) {
+            if (used == k_segment_bytes) {
+                segments[filling].fence = GlFence::place();
+                filling = 1 - filling;
+                take(segments[filling]);
+                used = 0;
+            }
+            const std::size_t place = filling * k_segment_bytes + used;
+            const std::size_t bytes = std::min(request.bytes - done, k_segment_bytes - used);
+            glCopyNamedBufferSubData(request.source, buffer_.name(), static_cast<GLintptr>(request.offset + done),
+                                     static_cast<GLintptr>(place), static_cast<GLsizeiptr>(bytes));
+            segments[filling].pieces.push_back({place, static_cast<std::byte*>(request.destination) + done, bytes});
+            used += aligned(bytes);
+            done += bytes;
+        }
     }
-    GlFence::place().wait();
-    place = 0;
-    for (const Request& request : requests) {
-        if (request.bytes > 0) std::memcpy(request.destination, buffer_.mapped() + place, request.bytes);
-        place += aligned(request.bytes);
-    }
+    segments[filling].fence = GlFence::place();
+    take(segments[1 - filling]);
+    take(segments[filling]);
 }
 
 } // namespace talus::engine

@@ -30,7 +30,8 @@ private:
     std::size_t used_ = 0; // bytes of the segment
 };
 
-/// GPU to host: everything in one go, with one wait.
+/// GPU to host: all requests together, so that a small one has one wait. Of a large one a part leaves the GPU while the
+/// host takes the part before it.
 class ReadBack {
 public:
     struct Request {
@@ -43,7 +44,9 @@ public:
     std::size_t memory_bytes() const noexcept { return buffer_.size(); }
 
 private:
-    GlBuffer buffer_;
+    static constexpr std::size_t k_segment_bytes = std::size_t{1} << 20;
+
+    GlBuffer buffer_; // one segment or less, or two
 };
 
 } // namespace talus::engine
