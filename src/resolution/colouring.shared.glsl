@@ -97,6 +97,12 @@ inline bool is_active(Manifold manifold)
     return manifold.point_count > 0u && manifold.colour != k_inactive_colour;
 }
 
+// Words of a body slot in FastBodies: two for each doubling of the sub-steps, and one more, see solve_in_order.glsl.
+inline uint fast_body_words(uint least_substeps, uint most_substeps)
+{
+    return 2u * uint(findMSB(most_substeps / least_substeps)) + 1u;
+}
+
 // Words of BodyColours.
 const uint k_used_low = 0u;  // colours 0-31 in use at the body, a bit each
 const uint k_used_high = 1u; // colours 32-63

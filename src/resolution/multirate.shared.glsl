@@ -9,7 +9,6 @@
 const uint k_multirate = 0x10000u; // in Substeps, beside a number: the body's island is multirate
 const uint k_slowness_shift = 16u; // in traits, from this bit on: 1 + r; 0 where the island is not multirate
 const uint k_most_doublings = 5u;
-const uint k_fast_body_words = 2u * k_most_doublings + 1u; // of a body slot in FastBodies, see solve_in_order.glsl
 
 inline uint number_of_substeps(uint word) { return word & (k_multirate - 1u); }
 

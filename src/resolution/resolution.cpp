@@ -85,7 +85,8 @@ static void reserve_for_solve(Device& device, const StepPlan& plan) {
     static_assert(sizeof(BodyHits) == sizeof(BodyWarmStart) && sizeof(BodyHits) == sizeof(BodyVelocity));
     if (plan.bounces) device.grow(BufferId::WarmStarts, 2 * device.size(BufferId::Velocities));
     if (plan.persistent_groups == 0 || !plan.needs_launches() || !plan.may_be_multirate()) return;
-    device.grow(BufferId::FastBodies, sizeof(uint) * k_fast_body_words * plan.body_count);
+    const uint words = fast_body_words(plan.least_substeps, plan.most_substeps);
+    device.grow(BufferId::FastBodies, sizeof(uint) * words * plan.body_count);
     device.grow(BufferId::FastContacts, sizeof(FastContact) * plan.manifold_capacity);
 }
 

@@ -90,7 +90,8 @@ uint first_fast = k_none;
 uint last_fast = k_none;
 shared uint fast_count; // bodies of the group
 
-uint list_word(uint place) { return k_fast_body_words * place + 2u * k_most_doublings; }
+uint words_of_body() { return fast_body_words(parameters.least_substeps, parameters.most_substeps); }
+uint list_word(uint place) { return words_of_body() * place + words_of_body() - 1u; }
 
 // `begin`: where the group's places begin.
 void list_fast_body(uint begin, uint body) { fast_bodies[list_word(begin + atomicAdd(fast_count, 1u))] = body; }
@@ -168,7 +169,7 @@ uint manifold_in_list(uint index)
 uint ticks_power(uint tick) { return uint(findLSB(tick)); }
 uint slowest_power() { return uint(findLSB(ticks_apart)); }
 // `word`: k_used_low or k_used_high.
-uint fast_word(uint body, uint power, uint word) { return k_fast_body_words * body + 2u * power + word; }
+uint fast_word(uint body, uint power, uint word) { return words_of_body() * body + 2u * power + word; }
 
 void forget_fast_colours(uint body)
 {
