@@ -108,8 +108,9 @@ bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
 /// What comes bit by bit goes on, and gets one part in `share` more, of which a large world needs less; what comes all
 /// at once is what the caller has put together.
 uint with_headroom(uint demand, uint capacity, uint share = 4) {
-    if (demand / 2 > capacity) return demand + demand / 16;
-    return demand + demand / (demand < k_large_demand ? share : 8);
+    const bool is_large = demand >= k_large_demand;
+    if (demand / 2 > capacity) return demand + demand / (is_large ? 32 : 16);
+    return demand + demand / (is_large ? 8 : share);
 }
 
 } // namespace
