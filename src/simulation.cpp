@@ -37,7 +37,7 @@ constexpr uint k_most_bodies_each = 48;
 // the GPU, they need longer than it does: then its invocations have more contacts, and others the multiprocessors.
 constexpr uint k_much_beside = 16;
 constexpr uint k_manifolds_each_beside = 4;
-// Pairs or manifolds. Growing these takes longer than a step; a quarter of them to spare is memory that nobody uses.
+// Pairs or manifolds, of which the share that comes and goes is small.
 constexpr uint k_large_demand = 131'072;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
@@ -105,12 +105,11 @@ bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
            plan.may_be_multirate() == other.may_be_multirate();
 }
 
-/// What comes bit by bit goes on, and gets one part in `share` more, of which a large world needs less; what comes all
-/// at once is what the caller has put together.
+/// What comes bit by bit goes on, and gets one part in `share` more; what comes all at once is what the caller has put
+/// together.
 uint with_headroom(uint demand, uint capacity, uint share = 4) {
-    const bool is_large = demand >= k_large_demand;
-    if (demand / 2 > capacity) return demand + demand / (is_large ? 32 : 16);
-    return demand + demand / (is_large ? 8 : share);
+    const bool comes_at_once = demand / 2 > capacity;
+    return demand + demand / (!comes_at_once ? share : demand < k_large_demand ? 16 : 32);
 }
 
 } // namespace
