@@ -207,15 +207,15 @@ void Simulation::reserve_bodies(uint count) {
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
     grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words} * capacity);
     if (settings.sleeping) grow_everywhere(BufferId::Rests, capacity);
-    body_capacity = capacity;
-    grow_contacts(0, 0); // PairTable, in which the search keeps partners of bodies
+    grow_contacts(0, 0, capacity);
+    body_capacity = capacity; // only now: a buffer may have no room
 }
 
 void Simulation::reserve_pairs(uint count) {
     grow_contacts(count, count);
 }
 
-void Simulation::grow_contacts(uint pairs, uint manifolds) {
+void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
     if (pairs > k_most_pairs)
         throw Error(fmt::format("{} pairs of bodies are too many; at most {} are allowed", pairs, k_most_pairs));
     const uint pair_capacity = std::max(pairs, plan.pair_capacity);
@@ -223,8 +223,8 @@ void Simulation::grow_contacts(uint pairs, uint manifolds) {
     const uint table_size = std::bit_ceil(2 * pair_capacity);
     for (const BufferId buffer : k_pair_buffers)
         grow_everywhere(buffer, pair_capacity);
-    ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, k_kept_partners * body_capacity),
-                         watches_contacts()};
+    const uint partners = k_kept_partners * std::max(bodies, body_capacity); // which the search keeps in PairTable
+    ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, partners), watches_contacts()};
     placement.resolution->reserve_contacts(demand);
     demand.manifolds = 0; // nothing is solved, and no watch told, on the other one
     demand.keeps_old = false;
@@ -586,8 +586,7 @@ void Simulation::follow_demand(std::span<const uint> counters) {
 void Simulation::make_contact_room(uint pairs, uint manifolds) {
     const uint pair_room = with_headroom(pairs, plan.pair_capacity);
     // A larger share of manifolds: it is a smaller record, and each growth costs steps.
-    const uint manifold_room =
-        std::max(with_headroom(manifolds, plan.manifold_capacity, 2), likely_manifolds(pairs));
+    const uint manifold_room = std::max(with_headroom(manifolds, plan.manifold_capacity, 2), likely_manifolds(pairs));
     try {
         grow_contacts(pair_room, std::min(manifold_room, std::max(pair_room, plan.pair_capacity)));
     } catch (const Error&) {

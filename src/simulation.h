@@ -149,7 +149,7 @@ private:
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
-    void grow_contacts(uint pairs, uint manifolds);
+    void grow_contacts(uint pairs, uint manifolds, uint bodies = 0);
     /// For so many and some to spare, or at least for so many, at one go; 0: there is room.
     void make_contact_room(uint pairs, uint manifolds);
     void make_hub_room(uint manifolds);

@@ -8,6 +8,7 @@
 
 #include "device/gl/contact_room.h"
 #include "saved_state.h"
+#include "state/formulas.h"
 #include "step_results.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
@@ -158,7 +159,8 @@ TEST(ContactRooms, that_grow_have_the_same_parts_alive_and_never_shrink) {
     // Constraints that get longer over the same contacts.
     const ContactRoom room = room_for(1000, 10, false);
     EXPECT_TRUE(room.grown({0, 600, 0, false}).has_places_of(room));
-    EXPECT_GT(room.grown({0, 600, 0, false}).place(BufferId::Constraints).bytes, room.place(BufferId::Constraints).bytes);
+    EXPECT_GT(room.grown({0, 600, 0, false}).place(BufferId::Constraints).bytes,
+              room.place(BufferId::Constraints).bytes);
     EXPECT_FALSE(room.grown({0, 1000, 0, false}).has_places_of(room));
 }
 
@@ -330,10 +332,12 @@ public:
     using StandInDevice::StandInDevice;
 
     ContactDemand most{engine::k_none, engine::k_none}; // that there is room for
+    uint largest_table = engine::k_none;
     const engine::Kernel* faulty = nullptr;
 
     void reserve_contacts(const ContactDemand& demand) override {
-        if (demand.pairs > most.pairs || demand.manifolds > most.manifolds) throw Error("no room");
+        if (demand.pairs > most.pairs || demand.manifolds > most.manifolds || demand.table_size > largest_table)
+            throw Error("no room");
         StandInDevice::reserve_contacts(demand);
     }
     void run(const engine::Launch& launch) override {
@@ -387,7 +391,7 @@ struct PoorRun {
 
 TEST_P(ContactMemory, is_as_it_was_after_a_step_for_which_there_is_no_room) {
     const std::map<const char*, ContactDemand> lacks{{"pairs", {8, 8}}, // known before contacts are found, or behind it
-                                            {"manifolds", {engine::k_none, 8}}};
+                                                     {"manifolds", {engine::k_none, 8}}};
     for (const auto& [what, most] : lacks) {
         SCOPED_TRACE(what);
         PoorRun poor(GetParam(), false), rich(GetParam(), true);
@@ -418,6 +422,17 @@ TEST_P(ContactMemory, is_as_it_was_after_a_step_for_which_there_is_no_room) {
         EXPECT_TRUE(poor.run->motion() == rich.run->motion()) << "impulses that a step starts from have been kept";
         EXPECT_TRUE(read_contacts(poor.run->simulation).impulses == read_contacts(rich.run->simulation).impulses);
     }
+}
+
+TEST_P(ContactMemory, gets_room_for_what_a_search_keeps_of_bodies_for_which_there_was_none_at_first) {
+    PoorRun poor(GetParam(), true);
+    constexpr uint k_bodies = 5000;
+    poor.device->largest_table = 10'000;
+    EXPECT_THROW(poor.run->simulation.reserve_bodies(k_bodies), Error);
+    EXPECT_LE(poor.device->size(BufferId::PairTable), 10'000 * sizeof(uint));
+    poor.device->largest_table = engine::k_none;
+    poor.run->simulation.reserve_bodies(k_bodies);
+    EXPECT_GE(poor.device->size(BufferId::PairTable), engine::k_kept_partners * k_bodies * sizeof(uint));
 }
 
 TEST_P(ContactMemory, is_empty_after_a_step_that_broke_off_in_the_midst_of_the_solve) {

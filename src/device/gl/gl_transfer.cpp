@@ -40,8 +40,8 @@ void UploadRing::copy(GLuint target, std::size_t offset, std::span<const std::by
     }
 }
 
-// Not by glClearNamedBufferSubData: where that is the first command for a large new buffer, NVIDIA's driver takes 0.85 s
-// for each GB of it, and 0.05 where a copy is.
+// Not by glClearNamedBufferSubData: where that is the first command for a large new buffer, NVIDIA's driver takes 0.85
+// s for each GB of it, and 0.05 where a copy is.
 void UploadRing::zero(const GlBuffer& target, std::size_t offset) {
     static constexpr std::array<std::byte, 64 * 1024> zeros{};
     const std::size_t bytes = target.size() - offset;
