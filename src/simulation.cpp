@@ -200,6 +200,7 @@ void Simulation::grow_everywhere(BufferId buffer, std::size_t elements) {
 
 void Simulation::reserve_bodies(uint count) {
     if (count <= body_capacity) return;
+    settle(); // contacts move, and where they lie may be another half once a step on its way is done again
     const uint capacity = std::max(count, with_headroom(body_capacity, body_capacity));
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
@@ -212,10 +213,12 @@ void Simulation::reserve_bodies(uint count) {
 }
 
 void Simulation::reserve_pairs(uint count) {
+    settle();
     grow_contacts(count, count);
 }
 
 void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
+    TALUS_ASSERT(pending.empty(), "contacts were to move while steps are on their way");
     if (pairs > k_most_pairs)
         throw Error(fmt::format("{} pairs of bodies are too many; at most {} are allowed", pairs, k_most_pairs));
     const uint pair_capacity = std::max(pairs, plan.pair_capacity);
@@ -456,7 +459,9 @@ void Simulation::enqueue(Pending entry) {
     try {
         entry.ticket = engine::step(placement, now, entry.with_poses, entry.changes);
     } catch (const Error&) {
-        if (launch_count() != launches_before) abandon_step(entry.population);
+        other_graph = now.other_graph; // the next step's
+        owed_waking = std::max(owed_waking, entry.population.waking);
+        if (launch_count() != launches_before) abandon_step();
         throw;
     }
     entry.launches = launch_count() - launches_before;
@@ -464,14 +469,13 @@ void Simulation::enqueue(Pending entry) {
     pending.push_back(std::move(entry));
 }
 
-void Simulation::abandon_step(const Population& population) {
+void Simulation::abandon_step() {
     settle();
     kept_count = 0;
     if (!placement.resolution->has_old_contacts()) {
         forget_contacts();
         placement.resolution->swap_contacts(); // so that constraints no longer lie where contacts may be put back
     }
-    owed_waking = std::max(owed_waking, population.waking);
     search_anew();
 }
 
@@ -675,13 +679,14 @@ void Simulation::redo(std::span<const uint> counters) {
                 "this GPU did not run work groups, or the invocations of one, side by side as they need, so a step "
                 "went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them meet at barriers instead");
         }
-        make_contact_room((reasons & k_fit_pairs) != 0 ? pair_demand : 0,
-                          (reasons & k_fit_manifolds) != 0 ? manifolds : 0);
+        if ((reasons & (k_fit_pairs | k_fit_manifolds)) != 0)
+            make_contact_room((reasons & k_fit_pairs) != 0 ? pair_demand : 0,
+                              (reasons & k_fit_manifolds) != 0 ? manifolds : 0);
         if ((reasons & k_fit_hubs) != 0) make_hub_room(hub_manifolds);
     } catch (const Error&) {
         // The world is left as it was before these steps, but for what the caller has changed, and for what groups
         // which gave up have changed. Only what the last step's impulses were may be lost, if not what the next one
-        // starts from: new contacts may lie over the constraints.
+        // starts from: new contacts, or what comes before them, may lie over the constraints.
         kept_count = 0;
         for (const Pending& entry : again) {
             apply_now(entry.population, entry.changes);

@@ -157,7 +157,7 @@ private:
     uint likely_manifolds(uint pairs) const;
     void redo(std::span<const uint> counters);
     /// Of a step that has been enqueued in part, as a driver could not make one of its kernels.
-    void abandon_step(const Population&);
+    void abandon_step();
     /// Where a step has begun to solve and came to nothing: its constraints may lie over the contacts of the last one.
     /// With nothing on its way. The next step starts from no impulses.
     void forget_contacts();

@@ -232,6 +232,36 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
     EXPECT_GE(device->size(BufferId::ManifoldPoints), std::size_t{4} * 16 * pairs);
 }
 
+TEST_P(ContactMemory, is_kept_when_only_the_table_grows) {
+    if (GetParam() != DeviceKind::Gpu) return; // the others have each buffer by itself
+    for (const uint manifolds : {20u, 100u, 300u}) {
+        for (const bool keeps_old : {false, true}) {
+            for (const int steps : {0, 1}) {
+                const auto device = engine::make_gl_device(GlContext::Own, false);
+                ContactDemand demand{300, manifolds, 600, keeps_old};
+                device->reserve_contacts(demand);
+                for (int i = 0; i < steps; ++i) {
+                    device->begin_constraints();
+                    device->swap_contacts();
+                }
+                std::map<BufferId, std::vector<std::byte>> written;
+                for (const BufferId id : engine::k_old_contact_buffers)
+                    written[id] = pattern(id, device->size(id));
+                written[BufferId::Constraints] = pattern(BufferId::Constraints, device->size(BufferId::Constraints));
+                for (const auto& [id, bytes] : written)
+                    device->write(id, 0, bytes);
+                for (int i = 0; i < 4; ++i) {
+                    demand.table_size *= 5;
+                    device->reserve_contacts(demand);
+                    for (const auto& [id, bytes] : written)
+                        expect_kept(*device, id, bytes);
+                    EXPECT_GE(device->size(BufferId::PairTable), demand.table_size * sizeof(uint));
+                }
+            }
+        }
+    }
+}
+
 void add(std::string& text, auto... values) {
     (text.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
 }
@@ -433,6 +463,37 @@ TEST_P(ContactMemory, gets_room_for_what_a_search_keeps_of_bodies_for_which_ther
     poor.device->largest_table = engine::k_none;
     poor.run->simulation.reserve_bodies(k_bodies);
     EXPECT_GE(poor.device->size(BufferId::PairTable), engine::k_kept_partners * k_bodies * sizeof(uint));
+}
+
+TEST_P(ContactMemory, is_kept_where_bodies_need_room_while_a_step_that_did_not_fit_is_on_its_way) {
+    int growths_on_the_way = 0;
+    for (std::uint32_t before = 1; before <= 60; ++before) {
+        SCOPED_TRACE(before);
+        WorldOptions small = options_on(GetParam()), ample = options_on(DeviceKind::Cpu);
+        small.capacities = {64, 4, 2};
+        ample.capacities = {4096, 8192, 64};
+        World world({}, small), expected({}, ample);
+        for (World* each : {&world, &expected}) {
+            each->add(ground());
+            for (int i = 0; i < 40; ++i) // they land one after the other
+                each->add(box_at({1.5f * static_cast<float>(i), 0.6f + 0.15f * static_cast<float>(i % 20), 0.0f}));
+            each->step(before);
+            EXPECT_LE(each->contacts().size(), 40u); // no step is on its way any more
+        }
+        const std::uint32_t growths = world.report().growths;
+        for (World* each : {&world, &expected}) {
+            each->step();
+            std::vector<BodyDefinition> more;
+            for (int i = 0; i < 1500; ++i)
+                more.push_back(box_at({1000.0f + 3.0f * static_cast<float>(i), 50.0f, 0.0f}));
+            each->add(more);
+            each->step();
+        }
+        EXPECT_EQ(results_of(world), results_of(expected));
+        EXPECT_EQ(world.state_hash(), expected.state_hash());
+        if (world.report().growths > growths) ++growths_on_the_way;
+    }
+    EXPECT_GT(growths_on_the_way, 0);
 }
 
 TEST_P(ContactMemory, is_empty_after_a_step_that_broke_off_in_the_midst_of_the_solve) {

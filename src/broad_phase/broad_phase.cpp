@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "log.h"
 #include "primitives/primitives.h"
 #include "state/formulas.h"
 #include "step.h"
@@ -73,6 +74,8 @@ static void search_all(Device& device, const StepPlan& plan) {
     } else if (plan.broad_phase == BroadPhase::Bvh) {
         const uint top = tree_top(plan.body_count);
         reserve_tree(device);
+        TALUS_ASSERT(device.size(BufferId::PairTable) >= std::size_t{k_kept_partners} * plan.body_count * sizeof(uint),
+                     "there is no room for the partners of bodies");
         make_tree(device, plan.body_count, top);
         find_pairs(device, search_tree, plan.body_count, top);
     } else {

@@ -5,7 +5,7 @@
 // Run twice: args.x = 0 counts, and keeps the first k_kept_partners; 1 writes these at the scanned offset and goes on
 // from the last of them if there are more. args.y: the root's shift.
 // Reads: Counters, TreeNodes, TreeGrids, SortValues, OrientedBoxes.
-// Writes: PairCounts, Partners (counting) or Pairs (writing), in the order of the sort; Counters.
+// Writes: PairCounts, Partners, which is PairTable (counting), or Pairs (writing), in the order of the sort; Counters.
 // Needs: a barrier after build_tree; for writing, after the scan of the counts.
 // Overflow: the counts' sum is the demand; pairs beyond the capacity are not written. A search that the driver ended is
 // told in k_counter_did_not_fit.

@@ -132,7 +132,8 @@ public:
     /// swapped together, and Constraints may lie over contacts that nobody wants any more: from begin_constraints on
     /// over the old ones, and from swap_contacts on over the new ones, until kernels write these. PairTable may lie
     /// over Constraints, so that each is there until kernels write the other. Constraints and contacts that they do not
-    /// lie over keep their content. Old contacts are kept for good once they are.
+    /// lie over keep their content. Old contacts are kept for good once they are. Not while a step is on its way that
+    /// may be done again.
     virtual void reserve_contacts(const ContactDemand&);
     /// Kernels that are given from here on write Constraints; those that read the old contacts need keeps_old.
     virtual void begin_constraints() {}

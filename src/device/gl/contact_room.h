@@ -2,13 +2,13 @@
 // Where the contacts of this step, those of the last one and the constraints lie in one OpenGL buffer, so that the
 // constraints take the memory of contacts that are not wanted any more:
 //
-//     [ four arrays ][ gap, where the constraints are longer than these ][ four arrays ]
+//     [ four arrays ][ gap, where the constraints are longer, or PairTable ][ four arrays ]
 //
 // PairTable lies in the gap, which is as long as that at least: constraints are not wanted any more when the broad
 // phase begins to use it, and the table is not when they are made. The arrays at the start are the new contacts and
 // those at the end the old ones, or the other way round: swap makes the new ones old. The constraints lie over the one
 // or the other, and over the gap: in a step over the old contacts from begin_constraints on, and over the new ones from
-// its end until the next narrow phase. Where the end of a step needs the old contacts, and the table, there is no gap,
+// its end until the next search. Where the end of a step needs the old contacts, and the table, there is no gap,
 // and the constraints and the table lie behind all of these.
 //
 // This only reckons; see GlDevice for the buffer.
