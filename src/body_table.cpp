@@ -2,6 +2,7 @@
 #include "body_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <span>
@@ -46,6 +47,16 @@ Vec3 from_glm(vec3 v) {
     return {v.x, v.y, v.z};
 }
 
+float length_of(Quat q) {
+    return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+}
+
+BodyPose placed_at(const Pose& pose) {
+    const auto [x, y, z, w] = pose.rotation;
+    const float length = length_of(pose.rotation);
+    return {to_glm(pose.position), k_body_placed, {x / length, y / length, z / length, w / length}};
+}
+
 Pose from_record(const BodyPose& pose) {
     return {from_glm(pose.position), {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}};
 }
@@ -68,30 +79,21 @@ Shape unpack_shape(const BodyShape& shape) {
     return Sphere{shape.half_extents.x};
 }
 
+void BodyTable::reserve(std::size_t more) {
+    const std::size_t count = slot_count() + more;
+    for_each_slot_list([count](auto& list) {
+        if (count > list.capacity()) list.reserve(std::max(count, 2 * list.capacity()));
+    });
+}
+
 void BodyTable::append_slot() {
-    poses.emplace_back();
-    velocities.emplace_back();
-    shapes.emplace_back();
-    properties.emplace_back();
-    loads.emplace_back();
-    masses.emplace_back();
-    inertias.emplace_back();
-    uses.push_back(Use::Free);
-    dirty.push_back(0);
+    for_each_slot_list([](auto& list) { list.emplace_back(); });
     generations.resize(std::max(generations.size(), uses.size()));
     next_generations.resize(std::max(next_generations.size(), uses.size()));
 }
 
 void BodyTable::drop_last_slot() {
-    poses.pop_back();
-    velocities.pop_back();
-    shapes.pop_back();
-    properties.pop_back();
-    loads.pop_back();
-    masses.pop_back();
-    inertias.pop_back();
-    uses.pop_back();
-    dirty.pop_back();
+    for_each_slot_list([](auto& list) { list.pop_back(); });
 }
 
 uint BodyTable::take_slot() {
@@ -113,7 +115,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
     const Material& material = definition.material;
     masses[slot] = rigid ? mass : std::numeric_limits<float>::infinity();
     inertias[slot] = inertia;
-    poses[slot] = {to_glm(definition.pose.position), k_body_placed, to_glm(definition.pose.rotation)};
+    poses[slot] = placed_at(definition.pose);
     velocities[slot] = {to_glm(definition.velocity.linear), rigid ? 1.0f / mass : 0.0f,
                         to_glm(definition.velocity.angular), 0};
     shapes[slot] = pack_shape(definition.shape, definition.kind, definition.sensor);
@@ -238,12 +240,15 @@ BodyChanges BodyTable::take_changes() {
     if (changed.empty()) return changes;
     std::ranges::sort(changed); // neighbours go to neighbouring memory
     const auto take = [&](std::uint8_t what, BufferId buffer, const auto& all) {
+        const auto count =
+            static_cast<std::size_t>(std::ranges::count_if(changed, [&](uint slot) { return is_dirty(slot, what); }));
+        if (count == 0) return;
         RecordChanges change{buffer, {}, {}};
-        for (const uint slot : changed)
-            if (is_dirty(slot, what)) change.slots.push_back(slot);
-        if (change.slots.empty()) return;
-        change.records.reserve(change.slots.size() * sizeof(all[0]));
-        for (const uint slot : change.slots) {
+        change.slots.reserve(count);
+        change.records.reserve(count * sizeof(all[0]));
+        for (const uint slot : changed) {
+            if (!is_dirty(slot, what)) continue;
+            change.slots.push_back(slot);
             const auto bytes = std::as_bytes(std::span(&all[slot], 1));
             change.records.insert(change.records.end(), bytes.begin(), bytes.end());
         }

@@ -32,7 +32,9 @@ MassProperties mass_properties(const BodyDefinition&);
 
 class BodyTable {
 public:
-    /// A checked definition becomes a body.
+    /// Room for as many bodies more at one go.
+    void reserve(std::size_t more);
+    /// A checked definition becomes a body, its rotation brought to unit length.
     BodyId add(const BodyDefinition&);
     void remove(BodyId);
     bool contains(BodyId) const noexcept;
@@ -94,6 +96,8 @@ public:
 private:
     enum class Use : std::uint8_t { Free, Present, Resting };
 
+    /// Calls `visit` with each list that has one element a slot.
+    template <typename Visit> void for_each_slot_list(const Visit& visit);
     uint take_slot();
     void append_slot();
     void drop_last_slot();
@@ -113,6 +117,18 @@ private:
     Waking waking = Waking::None;
 };
 
+template <typename Visit> void BodyTable::for_each_slot_list(const Visit& visit) {
+    visit(poses);
+    visit(velocities);
+    visit(shapes);
+    visit(properties);
+    visit(loads);
+    visit(masses);
+    visit(inertias);
+    visit(uses);
+    visit(dirty);
+}
+
 template <typename Table, typename Visit> void BodyTable::visit_lists(Table& table, const Visit& visit) {
     visit(table.poses);
     visit(table.velocities);
@@ -131,6 +147,9 @@ template <typename Table, typename Visit> void BodyTable::visit_lists(Table& tab
 vec3 to_glm(Vec3);
 vec4 to_glm(Quat);
 Vec3 from_glm(vec3);
+float length_of(Quat);
+/// Where the caller has put a body, with the rotation brought to unit length.
+BodyPose placed_at(const Pose&);
 Pose from_record(const BodyPose&);
 Velocity from_record(const BodyVelocity&);
 uint pack_combine(const Material&);

@@ -16,36 +16,35 @@ constexpr float k_smallest_size = 1.0e-4f;     // m
 constexpr float k_largest_value = 1.0e12f;     // forces, masses, inertia: their squares still fit a float
 constexpr float k_smallest_value = 1.0e-30f;   // masses, inertia: their inverses still fit a float
 
-[[noreturn]] void refuse(const std::string& where, const std::string& message) {
-    throw Error(where + ": " + message);
+[[noreturn]] void refuse(const Where& where, const std::string& message) {
+    throw Error(where.in_words() + ": " + message);
 }
 
-void check_range(float value, float lowest, float highest, const std::string& where, const char* what,
-                 const char* unit) {
+void check_range(float value, float lowest, float highest, const Where& where, const char* what, const char* unit) {
     if (value >= lowest && value <= highest) return;
     refuse(where, fmt::format("{} is {}{}; allowed is {} to {}{}", what, value, unit, lowest, highest, unit));
 }
 
-void check_positive(float value, const std::string& where, const char* what, const char* unit) {
+void check_positive(float value, const Where& where, const char* what, const char* unit) {
     check_range(value, k_smallest_value, k_largest_value, where, what, unit);
 }
 
-void check_size(float value, const std::string& where, const char* what) {
+void check_size(float value, const Where& where, const char* what) {
     check_range(value, k_smallest_size, k_largest_size, where, what, " m");
 }
 
 void check_capacity(std::uint32_t value, std::uint32_t highest, const char* what) {
     if (value > highest)
-        refuse("options",
+        refuse({"options"},
                fmt::format("capacities.{} is {}; allowed is 0 (the usual room) to {}", what, value, highest));
 }
 
-void check_combine(Combine rule, const std::string& where, const char* what) {
+void check_combine(Combine rule, const Where& where, const char* what) {
     if (static_cast<std::uint32_t>(rule) > static_cast<std::uint32_t>(Combine::Multiply))
         refuse(where, fmt::format("{} is {}, which is no rule of Combine", what, static_cast<std::uint32_t>(rule)));
 }
 
-void check_shape(const Shape& shape, const std::string& where) {
+void check_shape(const Shape& shape, const Where& where) {
     if (const auto* box = std::get_if<Box>(&shape)) {
         check_size(box->size.x, where, "size.x of the box");
         check_size(box->size.y, where, "size.y of the box");
@@ -56,6 +55,14 @@ void check_shape(const Shape& shape, const std::string& where) {
 }
 
 } // namespace
+
+std::string Where::in_words() const {
+    return fmt::format(fmt::runtime(words), call, number);
+}
+
+Where body_of_call(const char* call, BodyId id) {
+    return {"{0}: body {1}", call, id.index};
+}
 
 std::string to_words(BodyKind kind) {
     switch (kind) {
@@ -69,50 +76,51 @@ std::string to_words(BodyKind kind) {
     return "of unknown kind";
 }
 
-void check_finite(float value, const std::string& where, const char* what) {
+void check_finite(float value, const Where& where, const char* what) {
     if (!std::isfinite(value)) refuse(where, fmt::format("{} is {}; it must be a finite number", what, value));
     if (std::abs(value) > k_largest_value)
         refuse(where, fmt::format("{} is {}; at most {} is allowed", what, value, k_largest_value));
 }
 
-void check_finite(Vec3 v, const std::string& where, const char* what) {
+void check_finite(Vec3 v, const Where& where, const char* what) {
+    if (std::abs(v.x) <= k_largest_value && std::abs(v.y) <= k_largest_value && std::abs(v.z) <= k_largest_value)
+        return;
     check_finite(v.x, where, fmt::format("{}.x", what).c_str());
     check_finite(v.y, where, fmt::format("{}.y", what).c_str());
     check_finite(v.z, where, fmt::format("{}.z", what).c_str());
 }
 
-Pose checked_pose(const Pose& pose, const std::string& where) {
+void check_pose(const Pose& pose, const Where& where) {
     const float limit = k_largest_coordinate;
     check_range(pose.position.x, -limit, limit, where, "position.x", " m");
     check_range(pose.position.y, -limit, limit, where, "position.y", " m");
     check_range(pose.position.z, -limit, limit, where, "position.z", " m");
-    const auto [x, y, z, w] = pose.rotation;
-    const float length = std::sqrt(x * x + y * y + z * z + w * w);
-    if (!(std::abs(length - 1.0f) < 1.0e-2f))
+    const float length = length_of(pose.rotation);
+    if (!(std::abs(length - 1.0f) < 1.0e-2f)) {
+        const auto [x, y, z, w] = pose.rotation;
         refuse(where, fmt::format("rotation ({}, {}, {}, {}) has the length {}; a unit quaternion is wanted", x, y, z,
                                   w, length));
-    return {pose.position, {x / length, y / length, z / length, w / length}};
+    }
 }
 
-void check_velocity(const Velocity& velocity, const std::string& where) {
+void check_velocity(const Velocity& velocity, const Where& where) {
     check_finite(velocity.linear, where, "linear velocity");
     check_finite(velocity.angular, where, "angular velocity");
 }
 
-void check_material(const Material& material, const std::string& where) {
+void check_material(const Material& material, const Where& where) {
     check_range(material.friction, 0.0f, 1.0e6f, where, "friction", "");
     check_range(material.restitution, 0.0f, 1.0f, where, "restitution", "");
     check_combine(material.friction_combine, where, "friction_combine");
     check_combine(material.restitution_combine, where, "restitution_combine");
 }
 
-BodyDefinition checked_definition(const BodyDefinition& definition, const std::string& where) {
+void check_definition(const BodyDefinition& definition, const Where& where) {
     if (static_cast<std::uint32_t>(definition.kind) > static_cast<std::uint32_t>(BodyKind::Kinematic))
         refuse(where, fmt::format("kind is {}; allowed are Static, Rigid and Kinematic",
                                   static_cast<std::uint32_t>(definition.kind)));
     check_shape(definition.shape, where);
-    BodyDefinition checked = definition;
-    checked.pose = checked_pose(definition.pose, where);
+    check_pose(definition.pose, where);
     check_velocity(definition.velocity, where);
     if (definition.kind == BodyKind::Static && definition.velocity != Velocity{})
         refuse(where, "a static body cannot have a velocity; make it kinematic");
@@ -136,11 +144,10 @@ BodyDefinition checked_definition(const BodyDefinition& definition, const std::s
     check_range(definition.linear_damping, 0.0f, 1.0e6f, where, "linear_damping", " 1/s");
     check_range(definition.angular_damping, 0.0f, 1.0e6f, where, "angular_damping", " 1/s");
     check_material(definition.material, where);
-    return checked;
 }
 
 void check_settings(const Settings& settings) {
-    const std::string where = "settings";
+    const Where where{"settings"};
     check_finite(settings.gravity, where, "gravity");
     check_range(settings.dt, 1.0e-6f, 1.0f, where, "dt", " s");
     check_range(static_cast<float>(settings.substeps), 1.0f, 1000.0f, where, "substeps", "");
@@ -162,11 +169,11 @@ void check_settings(const Settings& settings) {
 }
 
 void check_watch(ContactWatch watch) {
-    if (watch > ContactWatch::All) refuse("watch_contacts", "the watch is none of None, Changes and All");
+    if (watch > ContactWatch::All) refuse({"watch_contacts"}, "the watch is none of None, Changes and All");
 }
 
 void check_options(const WorldOptions& options) {
-    const std::string where = "options";
+    const Where where{"options"};
     if (options.device > DeviceKind::Hybrid) refuse(where, "device is none of Auto, Gpu, Cpu and Hybrid");
     if (options.gl_context > GlContext::Current) refuse(where, "gl_context is none of Own and Current");
     check_capacity(options.capacities.bodies, k_most_bodies, "bodies");

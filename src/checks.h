@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the world refuses, in words. Every function throws Error; `where` begins the message and names the body or call.
+// What the world refuses, in words. Every function throws Error, with a message that begins with `where`.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include <talus/settings.h>
@@ -9,14 +10,23 @@
 
 namespace talus::engine {
 
-void check_finite(float, const std::string& where, const char* what);
-void check_finite(Vec3, const std::string& where, const char* what);
-/// The pose with its rotation brought to unit length.
-Pose checked_pose(const Pose&, const std::string& where);
-void check_velocity(const Velocity&, const std::string& where);
-void check_material(const Material&, const std::string& where);
-/// The definition with its rotation brought to unit length.
-BodyDefinition checked_definition(const BodyDefinition&, const std::string& where);
+/// What a message is about: a call, and the body or the place in a list that it was given. It is put into words only
+/// where something is refused, as programs call a hundred thousand times between two steps.
+struct Where {
+    const char* words; ///< {0} and {1} stand for the call and the number
+    const char* call = "";
+    std::size_t number = 0;
+
+    std::string in_words() const;
+};
+Where body_of_call(const char* call, BodyId);
+
+void check_finite(float, const Where&, const char* what);
+void check_finite(Vec3, const Where&, const char* what);
+void check_pose(const Pose&, const Where&);
+void check_velocity(const Velocity&, const Where&);
+void check_material(const Material&, const Where&);
+void check_definition(const BodyDefinition&, const Where&);
 void check_settings(const Settings&);
 void check_watch(ContactWatch);
 void check_options(const WorldOptions&);

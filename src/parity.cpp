@@ -95,8 +95,11 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     simulation.set_settings(settings);
     simulation.watch_contacts(ContactWatch::All); // so that its kernels are compared too
     BodyTable table;
-    for (std::size_t i = 0; i < definitions.size(); ++i)
-        table.add(checked_definition(definitions[i], "body " + std::to_string(i) + " of the scene"));
+    table.reserve(definitions.size());
+    for (std::size_t i = 0; i < definitions.size(); ++i) {
+        check_definition(definitions[i], {"body {1} of the scene", "", i});
+        table.add(definitions[i]);
+    }
 
     const uint body_count = table.slot_count();
     simulation.reserve_bodies(body_count);

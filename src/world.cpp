@@ -158,10 +158,6 @@ namespace {
 
 static_assert(GlBuffers::pair_count_word == k_counter_pair_count);
 
-std::string name_of(const char* call, BodyId id) {
-    return fmt::format("{}: body {}", call, id.index);
-}
-
 } // namespace
 
 World::World(const Settings& settings, const WorldOptions& options) {
@@ -181,19 +177,18 @@ BodyId World::add(const BodyDefinition& definition) {
 }
 
 std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
-    std::vector<BodyDefinition> all;
-    all.reserve(definitions.size());
     for (std::size_t i = 0; i < definitions.size(); ++i)
-        all.push_back(checked_definition(definitions[i],
-                                         definitions.size() == 1 ? "add" : fmt::format("add: body {} of the list", i)));
+        check_definition(definitions[i], {definitions.size() == 1 ? "{0}" : "{0}: body {1} of the list", "add", i});
     impl_->finish_events();
+    impl_->table.reserve(definitions.size());
     std::vector<BodyId> ids;
-    ids.reserve(all.size());
-    for (const BodyDefinition& definition : all) {
+    ids.reserve(definitions.size());
+    for (const BodyDefinition& definition : definitions)
         ids.push_back(impl_->table.add(definition));
-        impl_->steps_before.resize(impl_->table.slot_count());
-        impl_->steps_before[ids.back().index] = step_count();
-        if (impl_->settings.sleeping) impl_->table.disturb(ids.back().index);
+    impl_->steps_before.resize(impl_->table.slot_count());
+    for (const BodyId id : ids) {
+        impl_->steps_before[id.index] = step_count();
+        if (impl_->settings.sleeping) impl_->table.disturb(id.index);
     }
     return ids;
 }
@@ -235,9 +230,9 @@ Pose World::pose(BodyId id) const {
 
 void World::set_pose(BodyId id, const Pose& pose) {
     const uint slot = impl_->slot_of(id, "set_pose");
-    const Pose wanted = checked_pose(pose, name_of("set_pose", id));
+    check_pose(pose, body_of_call("set_pose", id));
     impl_->thaw(slot);
-    impl_->table.poses[slot] = {to_glm(wanted.position), k_body_placed, to_glm(wanted.rotation)};
+    impl_->table.poses[slot] = placed_at(pose);
 }
 
 Velocity World::velocity(BodyId id) const {
@@ -248,9 +243,9 @@ Velocity World::velocity(BodyId id) const {
 
 void World::set_velocity(BodyId id, const Velocity& velocity) {
     const uint slot = impl_->slot_of(id, "set_velocity");
-    check_velocity(velocity, name_of("set_velocity", id));
+    check_velocity(velocity, body_of_call("set_velocity", id));
     if (kind(id) == BodyKind::Static)
-        throw Error(name_of("set_velocity", id) + " is static; make it kinematic to move it");
+        throw Error(body_of_call("set_velocity", id).in_words() + " is static; make it kinematic to move it");
     impl_->thaw(slot);
     BodyTable& table = impl_->table;
     table.velocities[slot] = {to_glm(velocity.linear), table.properties[slot].inverse_mass, to_glm(velocity.angular),
@@ -269,13 +264,13 @@ std::vector<Velocity> World::velocities() const {
 
 void World::add_force(BodyId id, Vec3 force) {
     const uint slot = impl_->rigid_slot_of(id, "add_force");
-    check_finite(force, name_of("add_force", id), "force");
+    check_finite(force, body_of_call("add_force", id), "force");
     impl_->touch(slot, k_dirty_load);
     impl_->table.loads[slot].force += to_glm(force);
 }
 
 void World::add_force(BodyId id, Vec3 force, Vec3 point) {
-    check_finite(point, name_of("add_force", id), "point");
+    check_finite(point, body_of_call("add_force", id), "point");
     add_force(id, force);
     impl_->refresh();
     const uint slot = id.index;
@@ -284,24 +279,24 @@ void World::add_force(BodyId id, Vec3 force, Vec3 point) {
 
 void World::add_torque(BodyId id, Vec3 torque) {
     const uint slot = impl_->rigid_slot_of(id, "add_torque");
-    check_finite(torque, name_of("add_torque", id), "torque");
+    check_finite(torque, body_of_call("add_torque", id), "torque");
     impl_->touch(slot, k_dirty_load);
     impl_->table.loads[slot].torque += to_glm(torque);
 }
 
 void World::add_impulse(BodyId id, Vec3 impulse) {
     const uint slot = impl_->rigid_slot_of(id, "add_impulse");
-    check_finite(impulse, name_of("add_impulse", id), "impulse");
+    check_finite(impulse, body_of_call("add_impulse", id), "impulse");
     impl_->refresh();
     BodyTable& table = impl_->table;
     const vec3 linear = table.velocities[slot].linear + to_glm(impulse) * table.properties[slot].inverse_mass;
-    check_finite(from_glm(linear), name_of("add_impulse", id), "velocity after the impulse");
+    check_finite(from_glm(linear), body_of_call("add_impulse", id), "velocity after the impulse");
     impl_->thaw(slot);
     table.velocities[slot].linear = linear;
 }
 
 void World::add_impulse(BodyId id, Vec3 impulse, Vec3 point) {
-    check_finite(point, name_of("add_impulse", id), "point");
+    check_finite(point, body_of_call("add_impulse", id), "point");
     add_impulse(id, impulse);
     const vec3 arm = to_glm(point) - impl_->table.poses[id.index].position;
     add_angular_impulse(id, from_glm(cross3(arm, to_glm(impulse))));
@@ -309,13 +304,13 @@ void World::add_impulse(BodyId id, Vec3 impulse, Vec3 point) {
 
 void World::add_angular_impulse(BodyId id, Vec3 impulse) {
     const uint slot = impl_->rigid_slot_of(id, "add_angular_impulse");
-    check_finite(impulse, name_of("add_angular_impulse", id), "angular impulse");
+    check_finite(impulse, body_of_call("add_angular_impulse", id), "angular impulse");
     impl_->refresh();
     BodyTable& table = impl_->table;
     const BodyInertia inertia =
         world_inertia(table.poses[slot].rotation, table.properties[slot].inverse_inertia, k_trait_movable, 0);
     const vec3 angular = table.velocities[slot].angular + multiply_inertia(inertia, to_glm(impulse));
-    check_finite(from_glm(angular), name_of("add_angular_impulse", id), "angular velocity after the impulse");
+    check_finite(from_glm(angular), body_of_call("add_angular_impulse", id), "angular velocity after the impulse");
     impl_->thaw(slot);
     table.velocities[slot].angular = angular;
 }
@@ -337,7 +332,7 @@ float World::gravity_scale(BodyId id) const {
 
 void World::set_gravity_scale(BodyId id, float scale) {
     const uint slot = impl_->slot_of(id, "set_gravity_scale");
-    check_finite(scale, name_of("set_gravity_scale", id), "gravity scale");
+    check_finite(scale, body_of_call("set_gravity_scale", id), "gravity scale");
     impl_->touch(slot, k_dirty_properties);
     impl_->table.properties[slot].gravity_scale = scale;
 }
@@ -348,7 +343,7 @@ Material World::material(BodyId id) const {
 
 void World::set_material(BodyId id, const Material& material) {
     const uint slot = impl_->slot_of(id, "set_material");
-    check_material(material, name_of("set_material", id));
+    check_material(material, body_of_call("set_material", id));
     impl_->touch(slot, k_dirty_properties);
     BodyTable& table = impl_->table;
     BodyProperties& properties = table.properties[slot];
