@@ -483,23 +483,29 @@ TEST(Lanes, find_near_as_one_at_a_time) {
         for (uint b = 0; b < a; ++b)
             pairs.push_back(make_pair(a, b));
     const CpuState state = items.state();
-    const auto is_near = [&](const Pair& pair) {
-        return is_candidate(compute_aabb(box_now(state, pair.body_a)), compute_aabb(box_now(state, pair.body_b)));
+    const auto box_of = [&](uint body) { return compute_aabb(box_now(state, body)); };
+    const auto is_near = [&](const Pair& pair) { return is_candidate(box_of(pair.body_a), box_of(pair.body_b)); };
+    const auto is_still_near = [&](const Pair& pair) {
+        return is_still_candidate(box_of(pair.body_a), box_of(pair.body_b));
     };
     const auto near = std::ranges::count_if(pairs, is_near);
     ASSERT_GT(near, 100);
     ASSERT_LT(near, std::ssize(pairs) - 100);
+    const auto expect_near = [&](const NearPairs& found, uint i, const Pair& pair, bool asked) {
+        EXPECT_EQ(found.now >> i & 1u, asked && is_near(pair) ? 1u : 0u) << i;
+        EXPECT_EQ(found.still >> i & 1u, asked && is_still_near(pair) ? 1u : 0u) << i;
+    };
     for (const LaneQueries* queries : TALUS_RUNNABLE(lane_queries)) {
         for (std::size_t first = 0; first + queries->lanes <= pairs.size(); first += queries->lanes) {
-            const uint found = queries->find_near(state, &pairs[first]);
+            const NearPairs found = queries->find_near(state, &pairs[first]);
             for (uint lane = 0; lane < queries->lanes; ++lane)
-                EXPECT_EQ(found >> lane & 1u, is_near(pairs[first + lane]) ? 1u : 0u) << first + lane;
+                expect_near(found, lane, pairs[first + lane], true);
         }
     }
     for (uint count = 1; count <= 32; ++count) { // also such as fill no register
-        const uint found = find_near(state, pairs.data(), count);
+        const NearPairs found = find_near(state, pairs.data(), count);
         for (uint i = 0; i < 32; ++i)
-            EXPECT_EQ(found >> i & 1u, i < count && is_near(pairs[i]) ? 1u : 0u) << i << " of " << count;
+            expect_near(found, i, pairs[i], i < count);
     }
 }
 

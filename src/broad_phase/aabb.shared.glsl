@@ -9,6 +9,17 @@ inline float contact_margin(BodyVelocity velocity, Parameters p)
     return margin;
 }
 
+// A contact that there is lasts until its bodies are this much farther apart than where one begins (m). In a heap at rest some gap
+// always is as wide as that, and changes by micrometres: its contact would come and go, and the constraint graph with it.
+const float k_parting = 2.5e-4f;
+
+// How far apart two bodies may be that have a contact (m). `motion`: of B as seen from A, in this step (m).
+inline float contact_reach(vec3 motion, bool had_contact, Parameters p)
+{
+    precise float reach = p.speculative_distance + length3(motion) + choose(had_contact, k_parting, 0.0f);
+    return reach;
+}
+
 inline uint kind_of(BodyShape shape) { return (shape.type >> 8) & 255u; }
 inline bool is_present(BodyShape shape) { return kind_of(shape) != k_kind_absent; }
 inline bool is_movable(BodyShape shape) { return kind_of(shape) == k_kind_rigid; } // contacts push it
@@ -90,6 +101,16 @@ inline bool is_candidate(Aabb a, Aabb b)
 {
     return a.lower.x <= b.upper.x && a.upper.x >= b.lower.x && a.lower.y <= b.upper.y && a.upper.y >= b.lower.y &&
            a.lower.z <= b.upper.z && a.upper.z >= b.lower.z && (a.movable | b.movable) != 0u;
+}
+
+// Whether they do, or would if bodies reached half of k_parting further: then they may still have a contact.
+inline bool is_still_candidate(Aabb a, Aabb b)
+{
+    precise vec3 lower = a.lower - vec3(k_parting, k_parting, k_parting);
+    precise vec3 upper = a.upper + vec3(k_parting, k_parting, k_parting);
+    a.lower = lower;
+    a.upper = upper;
+    return is_candidate(a, b);
 }
 
 inline Pair make_pair(uint body_1, uint body_2)

@@ -7,8 +7,8 @@
 // micrometres a step; a thicker skin would make pairs of bricks with mortar between them.
 const float k_skin = 2.5e-3f; // m
 
-// Of both bodies, where all are searched for, it is more than k_axis_persistence, by which contacts may reach further than margins
-// say: docs/decisions/pairs-by-faces.md.
+// Of both bodies, where all are searched for, it is more than k_axis_persistence and k_parting, by which contacts may reach further than
+// margins say: docs/decisions/pairs-by-faces.md.
 const float k_least_skin = 7.5e-4f; // m
 
 // What of the skin is left to the rounding of all that is computed from it (m).

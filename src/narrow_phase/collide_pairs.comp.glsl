@@ -116,12 +116,6 @@ void keep_manifold(uint pair_index, Pair pair, uint old_index)
     }
 }
 
-// The search sees boxes with a skin.
-bool is_near(Pair pair)
-{
-    return is_candidate(compute_aabb(box_now(pair.body_a)), compute_aabb(box_now(pair.body_b)));
-}
-
 // Pairs that have been added come behind those of the last step.
 bool was_listed(uint pair_index) { return pair_index < counters[k_counter_old_pair_count]; }
 
@@ -146,12 +140,16 @@ void main()
     uint pair_index = item_index();
     if (pair_index >= counters[k_counter_pair_count]) return;
     Pair pair = pairs[pair_index];
-    if (!is_near(pair)) {
+    // The search saw boxes with a skin.
+    Aabb box_a = compute_aabb(box_now(pair.body_a));
+    Aabb box_b = compute_aabb(box_now(pair.body_b));
+    uint old_index = k_none;
+    if (is_still_candidate(box_a, box_b)) old_index = old_manifold_of(pair_index, pair);
+    if (old_index == k_none && !is_candidate(box_a, box_b)) {
         put_none(pair_index, pair);
         compare_with_last(pair_index, no_manifold(pair));
         return;
     }
-    uint old_index = old_manifold_of(pair_index, pair);
     if (parameters.rest_steps > 0u && sleeps(pair.body_a, pair.body_b)) {
         keep_manifold(pair_index, pair, old_index);
         return;
@@ -165,7 +163,7 @@ void main()
     BodyShape shape_b = unpack(shapes[pair.body_b]);
     precise vec3 motion =
         (unpack(velocities[pair.body_b]).linear - unpack(velocities[pair.body_a]).linear) * parameters.dt;
-    precise float max_separation = parameters.speculative_distance + length3(motion);
+    float max_separation = contact_reach(motion, old_index != k_none, parameters);
     ContactGeometry g =
         collide_moving_shapes(pose_a, shape_a, pose_b, shape_b, motion, carriers, no_query(), max_separation);
     bool sensed = is_sensed(shape_a, shape_b);

@@ -90,7 +90,7 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
     const BodyPose& pose_b = state.poses[pair.body_b];
     const vec3 motion =
         (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
-    const float max_separation = state.parameters.speculative_distance + length3(motion);
+    const float max_separation = contact_reach(motion, in_hand.old_index != k_none, state.parameters);
     ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b],
                                               motion, carriers_of(in_hand.old), in_hand.axes, max_separation);
     const bool sensed = is_sensed(state.shapes[pair.body_a], state.shapes[pair.body_b]);
@@ -121,14 +121,15 @@ constexpr uint k_part = 32; // pairs that a thread treats together, and bits of 
 /// The pairs of a part that have to be collided; the others' manifolds are written.
 uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::array<PairInHand, k_part>& in_hand) {
     uint count = 0;
-    const uint near = find_near(state, &state.pairs[first], end - first); // the search saw boxes with a skin
+    const NearPairs near = find_near(state, &state.pairs[first], end - first); // the search saw boxes with a skin
     for (uint index = first; index < end; ++index) {
         const Pair pair = state.pairs[index];
-        if ((near >> (index - first) & 1u) == 0) {
+        const auto is_among = [&](uint pairs) { return (pairs >> (index - first) & 1u) != 0; };
+        const uint old_index = is_among(near.still) ? old_manifold_of(state, index, same_pairs) : k_none;
+        if (old_index == k_none && !is_among(near.now)) {
             put_none(state, index);
             continue;
         }
-        const uint old_index = old_manifold_of(state, index, same_pairs);
         if (state.parameters.rest_steps > 0 && sleeps(state, pair))
             keep_manifold(state, index, old_index);
         else

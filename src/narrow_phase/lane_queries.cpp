@@ -23,14 +23,19 @@ template <typename T> static std::array<T, k_most_lanes> filled_up(const T* firs
     return all;
 }
 
-uint find_near(const CpuState& state, const Pair* pairs, uint count) {
+NearPairs find_near(const CpuState& state, const Pair* pairs, uint count) {
     const LaneQueries& queries = lane_queries();
-    uint near = 0, done = 0;
+    NearPairs all{};
+    uint done = 0;
+    const auto add = [&](const NearPairs& some, uint asked) {
+        all.now |= (some.now & asked) << done;
+        all.still |= (some.still & asked) << done;
+    };
     for (; done + queries.lanes <= count; done += queries.lanes)
-        near |= queries.find_near(state, pairs + done) << done;
-    if (done == count) return near;
-    const uint asked = (1u << (count - done)) - 1;
-    return near | (queries.find_near(state, filled_up(pairs + done, pairs + count).data()) & asked) << done;
+        add(queries.find_near(state, pairs + done), ~0u);
+    if (done < count)
+        add(queries.find_near(state, filled_up(pairs + done, pairs + count).data()), (1u << (count - done)) - 1);
+    return all;
 }
 
 void query_axes(const CpuState& state, const AxisQuestion* questions, uint count, AxisQuery* answers) {

@@ -15,16 +15,22 @@ struct AxisQuestion {
     uint old_axis;
 };
 
+/// Of up to 32 pairs, a bit for each.
+struct NearPairs {
+    uint now;   ///< is_candidate(), as the bodies are now
+    uint still; ///< is_still_candidate()
+};
+
 struct LaneQueries {
     uint lanes; ///< pairs side by side
-    /// A bit for each of as many pairs as there are lanes: whether their bounding boxes overlap as the bodies are now.
-    uint (*find_near)(const CpuState&, const Pair*);
+    /// Of as many pairs as there are lanes.
+    NearPairs (*find_near)(const CpuState&, const Pair*);
     /// Answers as many questions as there are lanes.
     void (*query_axes)(const CpuState&, const AxisQuestion*, AxisQuery*);
 };
 
-/// A bit for each of at most 32 pairs, with the widest registers that this machine has.
-uint find_near(const CpuState&, const Pair*, uint count);
+/// Of at most 32 pairs, with the widest registers that this machine has.
+NearPairs find_near(const CpuState&, const Pair*, uint count);
 
 /// Answers one question after the other, with the widest registers that this machine has.
 void query_axes(const CpuState&, const AxisQuestion*, uint count, AxisQuery*);

@@ -38,9 +38,10 @@ TALUS_LANE Aabb aabbs_now(const CpuState& state, const std::uint32_t* bodies) {
         make_oriented_box(poses_at(state, bodies), velocity, shapes_at(state, bodies), state.parameters));
 }
 
-inline std::uint32_t find_near(const CpuState& state, const engine::Pair* pairs) {
+inline NearPairs find_near(const CpuState& state, const engine::Pair* pairs) {
     const BodiesOfPairs bodies = bodies_of(pairs);
-    return bits_of(is_candidate(aabbs_now(state, bodies.a), aabbs_now(state, bodies.b)));
+    const Aabb a = aabbs_now(state, bodies.a), b = aabbs_now(state, bodies.b);
+    return {bits_of(is_candidate(a, b)), bits_of(is_still_candidate(a, b))};
 }
 
 inline void query_axes(const CpuState& state, const AxisQuestion* questions, engine::AxisQuery* answers) {
