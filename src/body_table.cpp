@@ -80,7 +80,7 @@ Shape unpack_shape(const BodyShape& shape) {
 }
 
 void BodyTable::reserve(std::size_t more) {
-    const std::size_t count = slot_count() + more;
+    const std::size_t count = slot_count() + more - std::min(more, slot_count() - present_count);
     for_each_slot_list([count](auto& list) {
         if (count > list.capacity()) list.reserve(std::max(count, 2 * list.capacity()));
     });

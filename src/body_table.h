@@ -32,7 +32,7 @@ MassProperties mass_properties(const BodyDefinition&);
 
 class BodyTable {
 public:
-    /// Room for as many bodies more at one go.
+    /// Room for as many bodies more at one go, of which some may take slots that are free, or will be.
     void reserve(std::size_t more);
     /// A checked definition becomes a body, its rotation brought to unit length.
     BodyId add(const BodyDefinition&);

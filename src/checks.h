@@ -11,7 +11,7 @@
 namespace talus::engine {
 
 /// What a message is about: a call, and the body or the place in a list that it was given. It is put into words only
-/// where something is refused, as programs call a hundred thousand times between two steps.
+/// where something is refused, as programs may call a hundred thousand times between two steps.
 struct Where {
     const char* words; ///< {0} and {1} stand for the call and the number
     const char* call = "";

@@ -238,6 +238,11 @@ TEST(BoxBox, each_point_lies_midway_between_the_two_surfaces) {
     }
 }
 
+// What a search of all sees of two bodies that move, beyond what contacts reach when they begin.
+TEST(BoxBox, contacts_reach_no_farther_than_a_search) {
+    EXPECT_GT(2.0f * k_least_skin, k_axis_persistence + k_parting);
+}
+
 TEST(BoxBox, the_same_contact_is_found_from_both_sides) {
     Samples samples;
     for (int i = 0; i < 5'000; ++i) {

@@ -488,6 +488,10 @@ TEST(Lanes, find_near_as_one_at_a_time) {
     const auto is_still_near = [&](const Pair& pair) {
         return is_still_candidate(box_of(pair.body_a), box_of(pair.body_b));
     };
+    items.poses[1].position = items.poses[0].position; // and then beside it, apart by less than k_parting
+    items.poses[1].position.x += box_of(0).upper.x - box_of(1).lower.x + 0.4f * k_parting;
+    ASSERT_FALSE(is_near({0, 1}));
+    ASSERT_TRUE(is_still_near({0, 1}));
     const auto near = std::ranges::count_if(pairs, is_near);
     ASSERT_GT(near, 100);
     ASSERT_LT(near, std::ssize(pairs) - 100);

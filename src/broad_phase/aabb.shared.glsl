@@ -103,7 +103,7 @@ inline bool is_candidate(Aabb a, Aabb b)
            a.lower.z <= b.upper.z && a.upper.z >= b.lower.z && (a.movable | b.movable) != 0u;
 }
 
-// Whether they do, or would if bodies reached half of k_parting further: then they may still have a contact.
+// Whether they do, or would if one of them reached k_parting further: then the bodies may still have a contact.
 inline bool is_still_candidate(Aabb a, Aabb b)
 {
     precise vec3 lower = a.lower - vec3(k_parting, k_parting, k_parting);
