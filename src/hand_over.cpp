@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Copies between the devices of a hybrid step. The resolution's device keeps its buffers in host memory, so each copy
-// is one transfer of the other device.
+// One of the two devices keeps its buffers in host memory, so each copy is one transfer of the other one.
 #include "hand_over.h"
+
+#include <algorithm>
 
 #include "step.h"
 
@@ -51,6 +52,37 @@ void hand_over_impulses(Device& from, Device& to) {
     lend(from, to, BufferId::OldPointImpulses, pair_count);
     lend(from, to, BufferId::OldPointSeparations, pair_count);
     lend(from, to, BufferId::OldManifoldPoints, std::size_t{4} * pair_count);
+}
+
+void hand_over_places(Device& from, Device& to, uint slots) {
+    lend(from, to, BufferId::Poses, slots);
+    lend(from, to, BufferId::Starts, slots);
+}
+
+void hand_over_state(Device& from, Device& to, const StateCounts& counts) {
+    const auto copy = [&](std::size_t count, std::initializer_list<BufferId> buffers) {
+        for (const BufferId buffer : buffers) {
+            const std::size_t stride = k_buffers[static_cast<std::size_t>(buffer)].stride;
+            // Some have room only where they are in use.
+            const std::size_t there = std::min({count, from.size(buffer) / stride, to.size(buffer) / stride});
+            if (there == 0) continue;
+            if (from.host_data(buffer) != nullptr)
+                lend(from, to, buffer, there);
+            else
+                from.read(std::array{take(to, buffer, there)});
+        }
+    };
+    static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 14,
+                  "another buffer survives the step");
+    copy(k_counter_words, {BufferId::Counters});
+    copy(counts.slots, {BufferId::Poses, BufferId::Velocities, BufferId::Shapes, BufferId::Properties, BufferId::Loads,
+                        BufferId::Rests, BufferId::OrientedBoxes});
+    copy(counts.pairs, {BufferId::Pairs, BufferId::OldManifolds, BufferId::OldPointSeparations,
+                        BufferId::OldPointImpulses, BufferId::OldContactStates});
+    copy(std::size_t{4} * counts.pairs, {BufferId::OldManifoldPoints});
+    // What the last search has made of the boxes, and what may be asked about the last step.
+    copy(counts.slots, {BufferId::Aabbs, BufferId::Starts});
+    copy(counts.constraints, {BufferId::Constraints});
 }
 
 } // namespace talus::engine

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What passes between the two devices of a hybrid step (thesis, section 4.2). The device of the resolution holds the
-// state; the one of the detection borrows it.
+// What passes between two devices, one of which keeps its buffers in the host's memory. In a hybrid step (thesis,
+// section 4.2) the device of the resolution holds the state; the one of the detection borrows it.
 #pragma once
 
 #include "device/device.h"
@@ -17,5 +17,19 @@ void hand_over_bodies(Device& from, Device& to, const StepPlan&);
 void hand_over_manifolds(Device& from, Device& to);
 /// The solved manifolds, to be the next step's old ones.
 void hand_over_impulses(Device& from, Device& to);
+
+/// Where bodies are, and were before the last step, to be drawn.
+void hand_over_places(Device& from, Device& to, uint slots);
+
+/// How much there is of a state.
+struct StateCounts {
+    uint slots = 0; ///< of bodies
+    uint pairs = 0;
+    uint constraints = 0;
+};
+
+/// All that a step has left for the next one, and for those who read it, to a device that goes on from there and has
+/// room for it. Nothing is to be on its way.
+void hand_over_state(Device& from, Device& to, const StateCounts&);
 
 } // namespace talus::engine

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 #include <numeric>
 #include <utility>
 
@@ -11,8 +12,10 @@
 
 #include "device/kernel_list.h"
 #include "finish/finish.h"
+#include "hand_over.h"
 #include "log.h"
 #include "parameters.h"
+#include "primitives/primitives.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
@@ -41,6 +44,10 @@ constexpr uint k_manifolds_each_beside = 4;
 constexpr uint k_large_demand = 131'072;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
+// How long a first step waits for kernels, which are there sooner where a driver has them from an earlier start. Then
+// the CPU makes it, unless it has so many bodies a thread that to wait for the driver is likely to be quicker.
+constexpr std::chrono::milliseconds k_patience_with_kernels{150};
+constexpr uint k_most_bodies_a_thread = 65'536;
 
 constexpr std::array k_body_buffers{
     BufferId::Poses,        BufferId::Velocities,   BufferId::Shapes,        BufferId::Properties,
@@ -112,6 +119,11 @@ uint with_headroom(uint demand, uint capacity, uint share = 4) {
     return demand + demand / (!comes_at_once ? share : demand < k_large_demand ? 16 : 32);
 }
 
+/// Slots of PairTable.
+uint table_size_for(uint pairs) {
+    return std::bit_ceil(2 * pairs);
+}
+
 } // namespace
 
 void Trust::note(bool needed) {
@@ -148,7 +160,8 @@ Devices make_devices(const WorldOptions& options) {
 }
 
 Simulation::Simulation(const WorldOptions& options, Devices devices)
-    : gpu(std::move(devices.gpu)), cpu(std::move(devices.cpu)), waits_for_kernels(options.wait_for_kernels) {
+    : gpu(std::move(devices.gpu)), cpu(std::move(devices.cpu)), cpu_threads(options.threads), profiles(options.profile),
+      waits_for_kernels(options.wait_for_kernels) {
     placement.detection = gpu ? gpu.get() : cpu.get();
     placement.resolution = cpu ? cpu.get() : gpu.get();
 
@@ -185,7 +198,7 @@ Simulation::Simulation(const WorldOptions& options, Devices devices)
 Simulation::~Simulation() = default;
 
 std::uint64_t Simulation::memory_bytes() const {
-    return placement.detection->memory_bytes() + (placement.hybrid() ? placement.resolution->memory_bytes() : 0);
+    return (gpu ? gpu->memory_bytes() : 0) + (cpu ? cpu->memory_bytes() : 0);
 }
 
 std::uint64_t Simulation::launch_count() const {
@@ -223,19 +236,28 @@ void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
         throw Error(fmt::format("{} pairs of bodies are too many; at most {} are allowed", pairs, k_most_pairs));
     const uint pair_capacity = std::max(pairs, plan.pair_capacity);
     const uint manifold_capacity = std::max(manifolds, plan.manifold_capacity);
-    const uint table_size = std::bit_ceil(2 * pair_capacity);
     for (const BufferId buffer : k_pair_buffers)
         grow_everywhere(buffer, pair_capacity);
-    const uint partners = k_kept_partners * std::max(bodies, body_capacity); // which the search keeps in PairTable
-    ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, partners), watches_contacts()};
-    placement.resolution->reserve_contacts(demand);
-    demand.manifolds = 0; // nothing is solved, and no watch told, on the other one
-    demand.keeps_old = false;
-    if (placement.hybrid()) placement.detection->reserve_contacts(demand);
+    const ContactDemand demand = contact_demand(pair_capacity, manifold_capacity, std::max(bodies, body_capacity));
+    reserve_contacts(*placement.resolution, demand);
+    if (placement.hybrid()) reserve_contacts(*placement.detection, demand);
     plan.pair_capacity = pair_capacity; // only now: a buffer may have no room
     plan.manifold_capacity = manifold_capacity;
-    plan.table_size = table_size;
+    plan.table_size = table_size_for(pair_capacity);
     if (watches_contacts()) reserve_reports();
+}
+
+ContactDemand Simulation::contact_demand(uint pairs, uint manifolds, uint bodies) const {
+    const uint partners = k_kept_partners * bodies; // which the search keeps in PairTable
+    return {pairs, manifolds, std::max(table_size_for(pairs), partners), watches_contacts()};
+}
+
+void Simulation::reserve_contacts(Device& device, ContactDemand demand) const {
+    if (info.kind == DeviceKind::Hybrid && &device == gpu.get()) { // nothing is solved, and no watch told, on this one
+        demand.manifolds = 0;
+        demand.keeps_old = false;
+    }
+    device.reserve_contacts(demand);
 }
 
 void Simulation::reserve_reports() {
@@ -304,7 +326,16 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     transferred.to_device += bytes_of(changes);
     Population asked = population;
     asked.waking = std::max(asked.waking, std::exchange(owed_waking, Waking::None));
-    enqueue({0, asked, with_poses, std::move(changes)});
+    try {
+        choose_placement(asked);
+    } catch (const Error&) { // a kernel is faulty: what the caller has changed is not to be lost with the step
+        owed_waking = asked.waking;
+        apply_now(asked, changes);
+        throw;
+    }
+    const auto before = std::chrono::steady_clock::now();
+    enqueue({{}, asked, with_poses, std::move(changes)});
+    newest_time = std::chrono::steady_clock::now() - before;
 }
 
 void Simulation::change_bodies(const Population& population, const BodyChanges& changes) {
@@ -316,11 +347,9 @@ void Simulation::change_bodies(const Population& population, const BodyChanges& 
 void Simulation::apply_now(const Population& population, const BodyChanges& changes) {
     write_body_count(population.slots);
     begin_graph_anew();
-    for (Device* device : {gpu.get(), cpu.get()}) {
-        if (device == nullptr) continue;
-        apply_changes(*device, changes);
-        device->leave();
-    }
+    apply_changes(*placement.resolution, changes);
+    if (placement.hybrid()) apply_changes(*placement.detection, changes);
+    placement.detection->leave();
 }
 
 void Simulation::read_state(std::span<const ReadRequest> requests) {
@@ -412,7 +441,6 @@ StepPlan Simulation::plan_step(const Population& population) const {
 }
 
 void Simulation::prepare_kernels(const Population& population) {
-    if (kernels_prepared || !gpu) return;
     StepPlan quickest = plan_in_launches(population, IslandSolve::Groups);
     // How many groups it will have is found by a trial of the kernel itself.
     if (quickest.may_be_persistent() && gpu->loops_freely()) quickest.persistent_groups = 1;
@@ -431,13 +459,74 @@ void Simulation::prepare_kernels(const Population& population) {
     first.search = Search::None;
     note(Stage::BroadPhase, first);
     if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
+    scatter_changed_records(list, BufferId::Poses, 1);
+    needed_kernels = list.kernels;
     note(Stage::Solve, quickest);
     gpu->prepare(list.kernels);
     kernels_prepared = true;
 }
 
+void Simulation::choose_placement(const Population& population) {
+    if (!gpu) return;
+    if (!kernels_prepared) {
+        prepare_kernels(population);
+        if (!waits_for_kernels && !info.in_software && !gpu->make_ready(needed_kernels, k_patience_with_kernels) &&
+            may_be_on_cpu(population))
+            begin_on_cpu();
+    } else if (waits_on_cpu) {
+        // Where steps are quick the caller is kept for one kernel, and else for as long again as a step takes.
+        const auto patience = std::chrono::duration_cast<std::chrono::milliseconds>(newest_time);
+        if (!may_be_on_cpu(population) || gpu->make_ready(needed_kernels, patience)) move_to_gpu();
+    }
+}
+
+bool Simulation::may_be_on_cpu(const Population& population) const {
+    const std::uint64_t threads = cpu ? cpu->info().threads : make_cpu_device(cpu_threads, false)->info().threads;
+    return population.slots <= k_most_bodies_a_thread * threads;
+}
+
+void Simulation::begin_on_cpu() {
+    if (!cpu) {
+        std::unique_ptr<Device> host = make_cpu_device(cpu_threads, profiles);
+        try {
+            for (std::size_t i = 0; i < k_buffers.size(); ++i)
+                host->grow(static_cast<BufferId>(i), gpu->size(static_cast<BufferId>(i)));
+        } catch (const Error& error) {
+            log(LogLevel::Info, std::string("a step waits for the GPU's kernels: ") + error.what());
+            return;
+        }
+        hand_over_state(*gpu, *host, {enqueued_slots, newest_report.pairs, kept_count});
+        cpu = std::move(host);
+    }
+    log(LogLevel::Info,
+        "the GPU's kernels are still being compiled: until then the CPU makes the steps, with the same bits");
+    placement = {cpu.get(), cpu.get()};
+    waits_on_cpu = true;
+}
+
+void Simulation::show_on_gpu() {
+    if (waits_on_cpu) {
+        reserve_contacts(*gpu, contact_demand(plan.pair_capacity, plan.manifold_capacity, body_capacity));
+        hand_over_state(*cpu, *gpu, {enqueued_slots, newest_report.pairs, kept_count});
+    } else if (placement.hybrid()) {
+        hand_over_places(*cpu, *gpu, enqueued_slots);
+    }
+}
+
+void Simulation::move_to_gpu() {
+    settle();
+    show_on_gpu();
+    placement = {gpu.get(), info.kind == DeviceKind::Hybrid ? cpu.get() : gpu.get()};
+    waits_on_cpu = false;
+    plan.most_launched = k_none;
+    pairs_last.begin_anew();
+    list_lasts.begin_anew();
+    begin_graph_anew();
+    log(LogLevel::Info,
+        fmt::format("the GPU's kernels are ready: it makes the steps from number {} on", finished_count + 1));
+}
+
 void Simulation::enqueue(Pending entry) {
-    prepare_kernels(entry.population);
     StepPlan now = plan_step(entry.population);
     const bool other_bodies = entry.population.slots != enqueued_slots;
     const bool strays = !pairs_last.holds(), all = !list_lasts.holds() || moves_bodies(entry.changes) || other_bodies;
@@ -457,7 +546,7 @@ void Simulation::enqueue(Pending entry) {
     write_body_count(entry.population.slots);
     const std::uint64_t launches_before = launch_count();
     try {
-        entry.ticket = engine::step(placement, now, entry.with_poses, entry.changes);
+        entry.tickets = engine::step(placement, now, entry.with_poses, entry.changes);
     } catch (const Error&) {
         other_graph = now.other_graph; // the next step's
         owed_waking = std::max(owed_waking, entry.population.waking);
@@ -480,7 +569,7 @@ void Simulation::abandon_step() {
 }
 
 void Simulation::poll() {
-    while (!pending.empty() && placement.resolution->finished(pending.front().ticket))
+    while (!pending.empty() && placement.resolution->finished(pending.front().tickets.resolution))
         finish_oldest();
 }
 
@@ -493,8 +582,9 @@ void Simulation::settle() {
 void Simulation::finish_oldest() {
     const Pending& done = pending.front();
     Device& device = *placement.resolution;
-    device.wait(done.ticket);
-    const std::span<const uint> counters = device.counters(done.ticket);
+    const Tickets tickets = done.tickets;
+    device.wait(tickets.resolution);
+    const std::span<const uint> counters = device.counters(tickets.resolution);
     const uint reasons = counters[k_counter_did_not_fit];
     if ((reasons & ~k_fit_reports) != 0) {
         redo(counters);
@@ -504,7 +594,9 @@ void Simulation::finish_oldest() {
     pairs_last.note(counters[k_counter_strayed] != 0);
     list_lasts.note(counters[k_counter_searched] != 0);
     graph_lasts.note(counters[k_counter_graph_was_due] != 0);
-    newest_ticket = done.ticket;
+    newest_device = &device;
+    newest_ticket = tickets.resolution;
+    if (info.kind == DeviceKind::Gpu && !waits_on_cpu) cpu.reset(); // that may have made the step before
     newest_has_poses = done.with_poses;
     newest_report.dispatches = static_cast<std::uint32_t>(done.launches);
     newest_report.broad_phase = done.broad_phase;
@@ -512,6 +604,7 @@ void Simulation::finish_oldest() {
 
     StepReport& report = newest_report;
     report.step = finished_count;
+    report.device = waits_on_cpu ? DeviceKind::Cpu : info.kind;
     report.pairs = counters[k_counter_pair_count];
     solved_count = counters[k_counter_manifold_count];
     kept_count = solved_count;
@@ -530,8 +623,8 @@ void Simulation::finish_oldest() {
     const std::span<const double> stage_ms = device.stage_ms(newest_ticket);
     report.stage_ms.assign(stage_ms.begin(), stage_ms.end());
     if (placement.hybrid()) {
-        placement.detection->wait(newest_ticket);
-        const std::span<const double> detection_ms = placement.detection->stage_ms(newest_ticket);
+        placement.detection->wait(tickets.detection);
+        const std::span<const double> detection_ms = placement.detection->stage_ms(tickets.detection);
         for (std::size_t i = 0; i < detection_ms.size(); ++i)
             report.stage_ms[i] += detection_ms[i];
     }
@@ -662,7 +755,7 @@ void Simulation::redo(std::span<const uint> counters) {
     // that broke off behind them has put the constraints over these.
     std::deque<Pending> again = std::exchange(pending, {});
     Device& device = *placement.resolution;
-    if (!again.empty()) device.wait(again.back().ticket);
+    if (!again.empty()) device.wait(again.back().tickets.resolution);
     for (std::size_t i = 0; i < again.size(); ++i)
         swap_manifolds(device);
     constexpr uint fits = 0;
@@ -701,7 +794,7 @@ void Simulation::redo(std::span<const uint> counters) {
 
 std::span<const BodyPose> Simulation::newest_poses() const {
     if (!newest_has_poses) return {};
-    return placement.resolution->poses(newest_ticket);
+    return newest_device->poses(newest_ticket);
 }
 
 } // namespace talus::engine

@@ -3,6 +3,7 @@
 // it did not fit.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <memory>
 #include <string>
@@ -93,6 +94,10 @@ public:
     /// Whose buffers hold the state, and whose the pairs. Call settle() first.
     Device& state_device() const { return *placement.resolution; }
     Device& detection_device() const { return *placement.detection; }
+    /// Whose buffers may be drawn from; null where there is none.
+    Device* gpu_device() const { return gpu.get(); }
+    /// Gives the GPU what the CPU has made, to be drawn. Call settle() first.
+    void show_on_gpu();
     /// Waits for the steps on their way, and reads from the state's device.
     void read_state(std::span<const ReadRequest>);
     /// Of body records, so far.
@@ -122,7 +127,7 @@ private:
     void begin_graph_anew();
 
     struct Pending {
-        Ticket ticket;
+        Tickets tickets;
         Population population;
         bool with_poses;
         BodyChanges changes;
@@ -146,6 +151,14 @@ private:
     bool may_launch(const Kernel&) const;
     /// Before the first step: the GPU's driver may compile all of its kernels side by side.
     void prepare_kernels(const Population&);
+    /// Before each step. The CPU makes the first ones while the GPU's driver compiles what none can do without.
+    void choose_placement(const Population&);
+    bool may_be_on_cpu(const Population&) const;
+    void begin_on_cpu();
+    void move_to_gpu();
+    ContactDemand contact_demand(uint pairs, uint manifolds, uint bodies) const;
+    /// As the device needs it for its part of a step.
+    void reserve_contacts(Device&, ContactDemand) const;
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
@@ -175,8 +188,13 @@ private:
     StepPlan plan;
     uint body_capacity = 0;
     uint enqueued_slots = 0;        ///< body slots of the newest step
+    std::uint32_t cpu_threads = 0;  ///< WorldOptions::threads
+    bool profiles = false;          ///< WorldOptions::profile
     bool waits_for_kernels = false; ///< WorldOptions::wait_for_kernels
     bool kernels_prepared = false;
+    bool waits_on_cpu = false;                         ///< until the GPU has these:
+    std::vector<const Kernel*> needed_kernels;         ///< without which it makes no step
+    std::chrono::steady_clock::duration newest_time{}; ///< of the newest step, where the CPU made it
     Transfers transferred;
 
     std::deque<Pending> pending;
@@ -197,7 +215,8 @@ private:
     uint solved_count = 0;             ///< manifolds, by the newest finished step
     uint kept_count = 0;               ///< of their constraints
     Waking owed_waking = Waking::None; ///< of changes before steps that were given up
-    Ticket newest_ticket = 0;
+    Device* newest_device = nullptr;   ///< that made the newest finished step
+    Ticket newest_ticket = 0;          ///< its
     bool newest_has_poses = false;
     std::vector<StepReports> reports;
 };

@@ -32,7 +32,7 @@ void run_stage(Device& device, Stage stage, const StepPlan& plan) {
     }
 }
 
-Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses, const BodyChanges& changes) {
+Tickets step(const Placement& placement, const StepPlan& plan, bool with_poses, const BodyChanges& changes) {
     apply_changes(*placement.resolution, changes);
     wake(*placement.resolution, plan);
     if (placement.hybrid()) {
@@ -40,17 +40,21 @@ Ticket step(const Placement& placement, const StepPlan& plan, bool with_poses, c
         apply_changes(*placement.detection, changes);
         hand_over_bodies(*placement.resolution, *placement.detection, plan); // who has been woken, too
     }
+    Tickets tickets;
     for (const Stage stage : k_stages) {
         if (placement.hybrid() && stage == Stage::ConstraintGraph) {
             hand_over_manifolds(*placement.detection, *placement.resolution);
             // Contact events compare with the last step's manifolds.
             if (plan.watch != ContactWatch::None) index_old_manifolds(*placement.resolution, plan);
-            placement.detection->end_step(false); // the tickets of the two devices go together
+            tickets.detection = placement.detection->end_step(false);
         }
         run_stage(placement.of(stage), stage, plan);
     }
     if (placement.hybrid()) hand_over_impulses(*placement.resolution, *placement.detection);
-    return placement.resolution->end_step(with_poses, plan.watch != ContactWatch::None ? plan.report_room : 0);
+    const uint report_room = plan.watch != ContactWatch::None ? plan.report_room : 0;
+    tickets.resolution = placement.resolution->end_step(with_poses, report_room);
+    if (!placement.hybrid()) tickets.detection = tickets.resolution;
+    return tickets;
 }
 
 } // namespace talus::engine

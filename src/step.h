@@ -98,7 +98,13 @@ struct Placement {
 
 void run_stage(Device&, Stage, const StepPlan&);
 
+/// Of a step, on the two devices or on one.
+struct Tickets {
+    Ticket detection = 0;
+    Ticket resolution = 0;
+};
+
 /// Enqueues the changes and a step behind them; see Device::end_step. On a hybrid placement it waits for the detection.
-Ticket step(const Placement&, const StepPlan&, bool with_poses, const BodyChanges& changes = {});
+Tickets step(const Placement&, const StepPlan&, bool with_poses, const BodyChanges& changes = {});
 
 } // namespace talus::engine

@@ -521,17 +521,13 @@ MemoryUse World::memory() const noexcept {
 }
 
 GlBuffers World::gl_buffers() const {
-    Device& device = impl_->simulation.detection_device();
-    if (device.gl_range(BufferId::Poses).buffer == 0)
+    if (impl_->simulation.gpu_device() == nullptr)
         throw Error("gl_buffers: the world runs on the CPU, which has no OpenGL buffers");
+    Device& device = *impl_->simulation.gpu_device();
     const CallersContext callers(impl_->own_context);
     const BodyChanges changes = impl_->take_changes();
     impl_->simulation.change_bodies(impl_->table.population(), changes);
-    if (Device& cpu = impl_->simulation.state_device(); &cpu != &device) { // hybrid: the newest poses are the CPU's
-        impl_->refresh();
-        device.write(BufferId::Poses, 0, std::as_bytes(std::span(impl_->table.poses)));
-        device.write(BufferId::Starts, 0, {cpu.host_data(BufferId::Starts), cpu.size(BufferId::Starts)});
-    }
+    impl_->simulation.show_on_gpu();
     const auto name_of = [&device](BufferId buffer) { return device.gl_range(buffer).buffer; };
     GlBuffers names;
     names.poses = name_of(BufferId::Poses);
@@ -550,7 +546,7 @@ GlBuffers World::gl_buffers() const {
 }
 
 void World::make_gl_current() const {
-    impl_->simulation.detection_device().make_current();
+    if (Device* gpu = impl_->simulation.gpu_device()) gpu->make_current();
 }
 
 std::span<const char* const> stage_names() noexcept {

@@ -87,6 +87,12 @@ inline std::vector<BodyDefinition> bodies_of(std::string_view scene_name) {
     return definitions;
 }
 
+inline std::vector<BodyDefinition> with_restitution(std::vector<BodyDefinition> bodies, float restitution) {
+    for (BodyDefinition& body : bodies)
+        body.material.restitution = restitution;
+    return bodies;
+}
+
 /// A plate that lies on the ground and carries side × side boxes: with_hubs it is a hub from side = 6 on, and it has
 /// more contacts than there are colours from side = 8 on.
 inline std::vector<BodyDefinition> plate_of(std::uint32_t side) {

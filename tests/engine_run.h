@@ -39,7 +39,7 @@ public:
         simulation.write(BufferId::Velocities, 0, std::span<const engine::BodyVelocity>(table.velocities));
         simulation.write(BufferId::Shapes, 0, std::span<const engine::BodyShape>(table.shapes));
         simulation.write(BufferId::Properties, 0, std::span<const engine::BodyProperties>(table.properties));
-        simulation.write(BufferId::Counters, engine::k_counter_body_count, std::span<const engine::uint>(&count, 1));
+        simulation.change_bodies(table.population(), {}); // these are all the bodies
     }
 
     void step(engine::uint count = 1) {
@@ -143,7 +143,7 @@ private:
     void step_as(const engine::StepPlan& plan) {
         engine::Device& device = simulation.state_device();
         device.set_parameters(engine::make_parameters(settings, plan));
-        device.wait(engine::step({&device, &device}, plan, false));
+        device.wait(engine::step({&device, &device}, plan, false).resolution);
     }
 };
 

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
         const scenes::Scene scene = scenes::make_scene(argv[1]);
         WorldOptions options;
         options.device = DeviceKind::Gpu;
+        options.wait_for_kernels = true;
         Settings settings = scene.settings;
         if (with_tree) settings.broad_phase = BroadPhase::Bvh;
         World world(settings, options);

@@ -20,7 +20,7 @@
 #include <gtest/gtest.h>
 
 #include "resolution/resolution.h"
-#include "scenes/scene.h"
+#include "tests/bodies.h"
 #include "tests/devices.h"
 #include "tests/engine_run.h"
 #include "tests/stand_in_device.h"
@@ -50,6 +50,10 @@ public:
     std::set<const Kernel*> asked;
     std::set<const Kernel*> ran;
 
+    bool make_ready(std::span<const Kernel* const> kernels, std::chrono::milliseconds) override {
+        return device->make_ready(kernels, std::chrono::hours(1));
+    }
+
     bool is_ready(const Kernel& kernel) override {
         asked.insert(&kernel);
         return !late.contains(&kernel) && device->is_ready(kernel);
@@ -74,20 +78,11 @@ private:
     }
 };
 
-std::vector<BodyDefinition> bodies_of(const char* scene, float restitution) {
-    std::vector<BodyDefinition> bodies;
-    for (const scenes::NamedBody& body : scenes::make_scene(scene).bodies) {
-        bodies.push_back(body.definition);
-        bodies.back().material.restitution = restitution;
-    }
-    return bodies;
-}
-
 /// Three islands of 465 boxes, each too large to share a work group.
 std::vector<BodyDefinition> three_pyramids() {
     std::vector<BodyDefinition> bodies;
     for (int i = 0; i < 3; ++i) {
-        for (BodyDefinition& body : bodies_of("pyramid:base=30", 0.0f)) {
+        for (BodyDefinition& body : bodies_of("pyramid:base=30")) {
             body.pose.position.z += 1000.0f * static_cast<float>(i);
             bodies.push_back(body);
         }
@@ -115,11 +110,11 @@ struct LateRun {
 class LateKernels : public OnDevice {};
 
 TEST_P(LateKernels, are_replaced_by_launches_with_the_same_bits) {
-    const std::vector<std::vector<BodyDefinition>> worlds{bodies_of("pool:boxes=20", 0.0f),
-                                                          bodies_of("pool:boxes=20", 0.4f),
-                                                          bodies_of("columns:side=20,height=3", 0.0f),
-                                                          bodies_of("pile:boxes=1100", 0.0f),
-                                                          bodies_of("pile:boxes=1100", 0.4f),
+    const std::vector<std::vector<BodyDefinition>> worlds{bodies_of("pool:boxes=20"),
+                                                          with_restitution(bodies_of("pool:boxes=20"), 0.4f),
+                                                          bodies_of("columns:side=20,height=3"),
+                                                          bodies_of("pile:boxes=1100"),
+                                                          with_restitution(bodies_of("pile:boxes=1100"), 0.4f),
                                                           three_pyramids()};
     std::minstd_rand random(1);
     for (std::size_t w = 0; w < worlds.size(); ++w) {
@@ -145,7 +140,7 @@ TEST_P(LateKernels, are_replaced_by_launches_with_the_same_bits) {
 }
 
 TEST_P(LateKernels, are_those_that_the_world_has_a_use_for) {
-    LateRun small(GetParam(), bodies_of("pool:boxes=20", 0.0f), false);
+    LateRun small(GetParam(), bodies_of("pool:boxes=20"), false);
     if (!small.device->loops_freely()) return; // it has no use for any
     small.device->late.insert(k_solvers.begin(), k_solvers.end());
     small.run->step();
@@ -158,7 +153,7 @@ TEST_P(LateKernels, are_those_that_the_world_has_a_use_for) {
 }
 
 TEST_P(LateKernels, are_not_asked_for_where_the_caller_waits) {
-    LateRun waiting(GetParam(), bodies_of("pool:boxes=20", 0.0f), true);
+    LateRun waiting(GetParam(), bodies_of("pool:boxes=20"), true);
     waiting.run->step();
     EXPECT_FALSE(waiting.awaits_kernels());
     EXPECT_TRUE(waiting.device->asked.empty());

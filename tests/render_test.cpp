@@ -81,6 +81,7 @@ BodyDefinition body_at(const Vec3& position, BodyKind kind = BodyKind::Rigid, co
 WorldOptions on(DeviceKind device) {
     WorldOptions options;
     options.device = device;
+    options.wait_for_kernels = true;
     return options;
 }
 

@@ -3,6 +3,7 @@
 // some of it.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <span>
 #include <utility>
@@ -37,6 +38,9 @@ public:
     void swap_contacts() override { device->swap_contacts(); }
     void set_parameters(const engine::Parameters& parameters) override { device->set_parameters(parameters); }
     void prepare(std::span<const engine::Kernel* const> kernels) override { device->prepare(kernels); }
+    bool make_ready(std::span<const engine::Kernel* const> kernels, std::chrono::milliseconds patience) override {
+        return device->make_ready(kernels, patience);
+    }
     void begin_stage(engine::Stage stage) override { device->begin_stage(stage); }
     engine::Ticket end_step(bool with_poses, engine::uint report_room) override {
         return device->end_step(with_poses, report_room);

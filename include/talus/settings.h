@@ -102,8 +102,9 @@ struct WorldOptions {
     /// later worlds start at once. The environment variable TALUS_PROGRAM_CACHE=0 turns it off too.
     bool program_cache = true;
     /// Wait for all kernels before the first step, ten seconds or more on some drivers where no programs are kept. Else
-    /// the first steps take what is compiled sooner, a launch for each colour and pass: the same bits, and slower. For
-    /// measuring.
+    /// the CPU makes the first steps, unless there are very many bodies for its threads, and the GPU goes on with what
+    /// is compiled sooner, a launch for each colour and pass: the same bits, and slower (StepReport::device,
+    /// StepReport::dispatches). For measuring, and for a GPU whose bits are not the CPU's (`talus parity`).
     bool wait_for_kernels = false;
     Capacities capacities; ///< how large buffers are at first
 };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -146,6 +147,9 @@ public:
 
     /// Makes kernels that will be launched soon ready, side by side where the device can. Waits for none of them.
     virtual void prepare(std::span<const Kernel* const>) {}
+    /// Goes on with that, until all are ready or so much time has passed; what is compiled already becomes ready, if
+    /// only one of them. Returns whether all are. Throws Error for a faulty one.
+    virtual bool make_ready(std::span<const Kernel* const>, std::chrono::milliseconds) { return true; }
     /// Whether the kernel can be launched without waiting until it is ready. Where not, it is on its way, or faulty.
     /// For kernels that a step can do without.
     virtual bool is_ready(const Kernel&) { return true; }

@@ -37,6 +37,11 @@ void dispatch_groups(uint groups) {
     glDispatchCompute((groups + rows - 1) / rows, rows, 1);
 }
 
+/// While the compiler works.
+void nap() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 // More than any GPU runs at a time of a kernel that needs all registers.
 constexpr uint k_trial_groups = 4096;
 
@@ -73,7 +78,8 @@ KernelTarget find_kernel_target(const OpenGlContext& context) {
 }
 
 GlDevice::Objects::Objects(bool profile, bool program_cache)
-    : parameters("Parameters", sizeof(Parameters)), cache(program_cache), steps(profile) {
+    : parameters("Parameters", sizeof(Parameters)), no_groups("NoGroups", sizeof(Dispatch)), cache(program_cache),
+      steps(profile) {
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         // Never empty, so that every buffer can be bound.
         const std::size_t bytes = whole(k_cell_bytes, element_bytes(static_cast<BufferId>(i)));
@@ -81,6 +87,7 @@ GlDevice::Objects::Objects(bool profile, bool program_cache)
         uploads.zero(buffers[i]);
     }
     uploads.zero(parameters);
+    uploads.zero(no_groups);
 }
 
 GlDevice::GlDevice(std::unique_ptr<OpenGlContext> context, bool profile, bool program_cache)
@@ -188,7 +195,7 @@ std::size_t GlDevice::size(BufferId id) const {
 }
 
 std::uint64_t GlDevice::memory_bytes() const {
-    std::uint64_t bytes = objects_->parameters.size() + objects_->uploads.memory_bytes() +
+    std::uint64_t bytes = objects_->parameters.size() + objects_->no_groups.size() + objects_->uploads.memory_bytes() +
                           objects_->read_back.memory_bytes() + objects_->steps.memory_bytes() +
                           objects_->contacts.size();
     for (const GlBuffer& each : objects_->buffers)
@@ -252,6 +259,35 @@ void GlDevice::prepare(std::span<const Kernel* const> kernels) {
     make_current();
     for (const Kernel* kernel : kernels)
         begun_program(*kernel);
+}
+
+bool GlDevice::make_ready(std::span<const Kernel* const> kernels, std::chrono::milliseconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    const auto is_finished = [this](const Kernel* kernel) { return begun_program(*kernel).finished(); };
+    const auto may_finish = [&](const Kernel* kernel) {
+        return !is_finished(kernel) && begun_program(*kernel).is_compiled();
+    };
+    make_current();
+    do {
+        // The last first: those that take longest are given first.
+        const auto next = std::find_if(kernels.rbegin(), kernels.rend(), may_finish);
+        if (next != kernels.rend()) {
+            GlProgram& program = begun_program(**next);
+            program.finish(objects_->cache);
+            launch_nothing(program);
+        } else {
+            nap();
+        }
+    } while (std::chrono::steady_clock::now() < end && !std::ranges::all_of(kernels, is_finished));
+    return std::ranges::all_of(kernels, is_finished);
+}
+
+void GlDevice::launch_nothing(const GlProgram& kernel) {
+    bindings_.begin(!context_->is_own());
+    bindings_.use_program(kernel.name());
+    bindings_.bind_dispatches(objects_->no_groups.name());
+    glDispatchComputeIndirect(0);
+    leave();
 }
 
 bool GlDevice::is_ready(const Kernel& kernel) {
@@ -421,7 +457,7 @@ void GlDevice::finish_another() {
     for (auto& [path, program] : objects_->programs) {
         if (!program.finished() && program.is_compiled() && finish_unneeded(program)) return;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    nap();
 }
 
 void GlDevice::check_range(BufferId id, std::size_t end, const char* what) const {

@@ -43,6 +43,7 @@ public:
     void swap_contacts() override;
     void set_parameters(const Parameters&) override;
     void prepare(std::span<const Kernel* const>) override;
+    bool make_ready(std::span<const Kernel* const>, std::chrono::milliseconds) override;
     /// A kernel that turns out to be faulty never is, and the log says so once.
     bool is_ready(const Kernel&) override;
     void run(const Launch&) override;
@@ -67,6 +68,7 @@ private:
         std::optional<ContactRoom> room;
         GlBuffer contacts; // the room's
         GlBuffer parameters;
+        GlBuffer no_groups; // the arguments of an indirect launch that does nothing
         ProgramCache cache;
         std::unordered_map<std::string, GlProgram> programs;
         UploadRing uploads;
@@ -82,6 +84,8 @@ private:
     /// The kernel's program, perhaps unfinished.
     GlProgram& begun_program(const Kernel&);
     GlProgram& program(const Kernel&);
+    /// Some drivers make the machine's code of a program from the cache only when it is launched for the first time.
+    void launch_nothing(const GlProgram&);
     /// While one is still compiled: some drivers make the machine's code only when the program is first asked for, on
     /// this thread. Naps where none is ready.
     void finish_another();
