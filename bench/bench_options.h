@@ -30,6 +30,7 @@ struct BenchOptions {
     std::filesystem::path size_curves;
     std::vector<std::uint32_t> sizes; ///< boxes, for the size curves
     std::uint32_t churn = 0;          ///< bodies removed and added before each step
+    bool searches_always = false;     ///< each step searches for all pairs, as broad phases are compared by that
 };
 
 void add_bench_options(CLI::App& command, BenchOptions& options);

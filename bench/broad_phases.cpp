@@ -41,6 +41,7 @@ std::uint64_t measure_broad_phases(const BenchOptions& given, std::FILE* out) {
     cli::check_output(given.broad_phases);
     BenchOptions options = given;
     options.stages = true;
+    options.searches_always = true;
     const std::vector<DeviceInfo> devices = find_devices(options);
     if (devices.size() != 1) throw Error("--broad-phases: measures one device; --devices names several");
     if (options.scenes.empty()) options.scenes = scene_list(devices.front());

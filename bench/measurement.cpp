@@ -88,6 +88,7 @@ Measurement measure(const Case& bench_case, const BenchOptions& options) {
         for (std::uint32_t i = 0; i < block; ++i) {
             cli::check_interrupt();
             run.replace_bodies(options.churn);
+            if (options.searches_always) run.search_anew();
             run.step();
             progress.show(done + (has_peer ? i / 2 : i));
         }

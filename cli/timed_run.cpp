@@ -60,6 +60,15 @@ void TimedRun::replace_bodies(std::uint32_t count) {
     replacing = count;
 }
 
+void TimedRun::search_anew() {
+    settle();
+    const Settings settings = simulated.settings();
+    Settings other = settings;
+    other.broad_phase = settings.broad_phase == BroadPhase::Bvh ? BroadPhase::SweepAndPrune : BroadPhase::Bvh;
+    simulated.set_settings(other); // pairs that another broad phase has found are not kept
+    simulated.set_settings(settings);
+}
+
 void TimedRun::replace_now() {
     const std::size_t body_count = ids.size();
     std::vector<BodyDefinition> definitions;

@@ -39,6 +39,8 @@ public:
     /// Removes the next `count` dynamic bodies of the scene, in turn, and adds each again as the scene has it. Part of
     /// the time of the step that follows.
     void replace_bodies(std::uint32_t count);
+    /// The next step searches for all pairs, whether that is due or not. Not part of its time.
+    void search_anew();
     /// On a GPU it returns while the step is on its way, unless the step is sampled. The first step is not timed where
     /// more follow: it compiles the kernels.
     void step();
