@@ -59,30 +59,38 @@ void hand_over_places(Device& from, Device& to, uint slots) {
     lend(from, to, BufferId::Starts, slots);
 }
 
-void hand_over_state(Device& from, Device& to, const StateCounts& counts) {
-    const auto copy = [&](std::size_t count, std::initializer_list<BufferId> buffers) {
-        for (const BufferId buffer : buffers) {
-            const std::size_t stride = k_buffers[static_cast<std::size_t>(buffer)].stride;
-            // Some have room only where they are in use.
-            const std::size_t there = std::min({count, from.size(buffer) / stride, to.size(buffer) / stride});
-            if (there == 0) continue;
-            if (from.host_data(buffer) != nullptr)
-                lend(from, to, buffer, there);
-            else
-                from.read(std::array{take(to, buffer, there)});
-        }
-    };
+namespace {
+
+void copy(Device& from, Device& to, std::size_t count, std::initializer_list<BufferId> buffers) {
+    for (const BufferId buffer : buffers) {
+        const std::size_t stride = k_buffers[static_cast<std::size_t>(buffer)].stride;
+        // Some have room only where they are in use.
+        const std::size_t there = std::min({count, from.size(buffer) / stride, to.size(buffer) / stride});
+        if (there == 0) continue;
+        if (from.host_data(buffer) != nullptr)
+            lend(from, to, buffer, there);
+        else
+            from.read(std::array{take(to, buffer, there)});
+    }
+}
+
+} // namespace
+
+void hand_over_drawn(Device& from, Device& to, StateCounts counts) {
+    copy(from, to, k_counter_words, {BufferId::Counters});
+    copy(from, to, counts.slots, {BufferId::Poses, BufferId::Starts, BufferId::Shapes, BufferId::Aabbs});
+    copy(from, to, counts.pairs,
+         {BufferId::Pairs, BufferId::OldManifolds, BufferId::OldPointSeparations, BufferId::OldPointImpulses});
+    copy(from, to, std::size_t{4} * counts.pairs, {BufferId::OldManifoldPoints});
+}
+
+void hand_over_state(Device& from, Device& to, StateCounts counts) {
     static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 14,
                   "another buffer survives the step");
-    copy(k_counter_words, {BufferId::Counters});
-    copy(counts.slots, {BufferId::Poses, BufferId::Velocities, BufferId::Shapes, BufferId::Properties, BufferId::Loads,
-                        BufferId::Rests, BufferId::OrientedBoxes});
-    copy(counts.pairs, {BufferId::Pairs, BufferId::OldManifolds, BufferId::OldPointSeparations,
-                        BufferId::OldPointImpulses, BufferId::OldContactStates});
-    copy(std::size_t{4} * counts.pairs, {BufferId::OldManifoldPoints});
-    // What the last search has made of the boxes, and what may be asked about the last step.
-    copy(counts.slots, {BufferId::Aabbs, BufferId::Starts});
-    copy(counts.constraints, {BufferId::Constraints});
+    hand_over_drawn(from, to, counts);
+    copy(from, to, counts.slots,
+         {BufferId::Velocities, BufferId::Properties, BufferId::Loads, BufferId::Rests, BufferId::OrientedBoxes});
+    copy(from, to, counts.pairs, {BufferId::OldContactStates});
 }
 
 } // namespace talus::engine

@@ -25,11 +25,12 @@ void hand_over_places(Device& from, Device& to, uint slots);
 struct StateCounts {
     uint slots = 0; ///< of bodies
     uint pairs = 0;
-    uint constraints = 0;
 };
 
-/// All that a step has left for the next one, and for those who read it, to a device that goes on from there and has
-/// room for it. Nothing is to be on its way.
-void hand_over_state(Device& from, Device& to, const StateCounts&);
+/// All that is drawn: bodies, and the last step's contacts, to a device that has room for them. Nothing is to be on its
+/// way.
+void hand_over_drawn(Device& from, Device& to, StateCounts);
+/// All that a step has left for the next one, in the same way. Constraints stay.
+void hand_over_state(Device& from, Device& to, StateCounts);
 
 } // namespace talus::engine

@@ -10,12 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "device/kernel_list.h"
 #include "finish/finish.h"
-#include "hand_over.h"
 #include "log.h"
 #include "parameters.h"
-#include "primitives/primitives.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
 
@@ -44,10 +41,6 @@ constexpr uint k_manifolds_each_beside = 4;
 constexpr uint k_large_demand = 131'072;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
 constexpr uint k_demand_window = 64;
-// How long a first step waits for kernels, which are there sooner where a driver has them from an earlier start. Then
-// the CPU makes it, unless it has so many bodies a thread that to wait for the driver is likely to be quicker.
-constexpr std::chrono::milliseconds k_patience_with_kernels{150};
-constexpr uint k_most_bodies_a_thread = 65'536;
 
 constexpr std::array k_body_buffers{
     BufferId::Poses,        BufferId::Velocities,   BufferId::Shapes,        BufferId::Properties,
@@ -328,7 +321,7 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     asked.waking = std::max(asked.waking, std::exchange(owed_waking, Waking::None));
     try {
         choose_placement(asked);
-    } catch (const Error&) { // a kernel is faulty: what the caller has changed is not to be lost with the step
+    } catch (const Error&) { // of a faulty kernel. What the caller has changed is not to be lost with the step
         owed_waking = asked.waking;
         apply_now(asked, changes);
         throw;
@@ -440,97 +433,11 @@ StepPlan Simulation::plan_step(const Population& population) const {
     return now;
 }
 
-void Simulation::prepare_kernels(const Population& population) {
-    StepPlan quickest = plan_in_launches(population, IslandSolve::Groups);
-    // How many groups it will have is found by a trial of the kernel itself.
-    if (quickest.may_be_persistent() && gpu->loops_freely()) quickest.persistent_groups = 1;
-    // What a large world may need at any time.
-    quickest.singles = quickest.has_groups();
-    StepPlan first = waits_for_kernels ? quickest : plan_in_launches(population, IslandSolve::Launches);
-    KernelList list(*gpu);
-    const auto note = [&](Stage stage, const StepPlan& by) {
-        if (&placement.of(stage) == gpu.get()) run_stage(list, stage, by);
-    };
-    // What the first step waits for comes first, and of that what a driver compiles longest.
-    note(Stage::NarrowPhase, first);
-    note(Stage::Solve, first);
-    for (const Stage stage : k_stages)
-        note(stage, first);
-    first.search = Search::None;
-    note(Stage::BroadPhase, first);
-    if (!first.small && !placement.hybrid()) list.run({.kernel = weigh_hubs});
-    scatter_changed_records(list, BufferId::Poses, 1);
-    needed_kernels = list.kernels;
-    note(Stage::Solve, quickest);
-    gpu->prepare(list.kernels);
-    kernels_prepared = true;
-}
-
-void Simulation::choose_placement(const Population& population) {
-    if (!gpu) return;
-    if (!kernels_prepared) {
-        prepare_kernels(population);
-        if (!waits_for_kernels && !info.in_software && !gpu->make_ready(needed_kernels, k_patience_with_kernels) &&
-            may_be_on_cpu(population))
-            begin_on_cpu();
-    } else if (waits_on_cpu) {
-        // Where steps are quick the caller is kept for one kernel, and else for as long again as a step takes.
-        const auto patience = std::chrono::duration_cast<std::chrono::milliseconds>(newest_time);
-        if (!may_be_on_cpu(population) || gpu->make_ready(needed_kernels, patience)) move_to_gpu();
-    }
-}
-
-bool Simulation::may_be_on_cpu(const Population& population) const {
-    const std::uint64_t threads = cpu ? cpu->info().threads : make_cpu_device(cpu_threads, false)->info().threads;
-    return population.slots <= k_most_bodies_a_thread * threads;
-}
-
-void Simulation::begin_on_cpu() {
-    if (!cpu) {
-        std::unique_ptr<Device> host = make_cpu_device(cpu_threads, profiles);
-        try {
-            for (std::size_t i = 0; i < k_buffers.size(); ++i)
-                host->grow(static_cast<BufferId>(i), gpu->size(static_cast<BufferId>(i)));
-        } catch (const Error& error) {
-            log(LogLevel::Info, std::string("a step waits for the GPU's kernels: ") + error.what());
-            return;
-        }
-        hand_over_state(*gpu, *host, {enqueued_slots, newest_report.pairs, kept_count});
-        cpu = std::move(host);
-    }
-    log(LogLevel::Info,
-        "the GPU's kernels are still being compiled: until then the CPU makes the steps, with the same bits");
-    placement = {cpu.get(), cpu.get()};
-    waits_on_cpu = true;
-}
-
-void Simulation::show_on_gpu() {
-    if (waits_on_cpu) {
-        reserve_contacts(*gpu, contact_demand(plan.pair_capacity, plan.manifold_capacity, body_capacity));
-        hand_over_state(*cpu, *gpu, {enqueued_slots, newest_report.pairs, kept_count});
-    } else if (placement.hybrid()) {
-        hand_over_places(*cpu, *gpu, enqueued_slots);
-    }
-}
-
-void Simulation::move_to_gpu() {
-    settle();
-    show_on_gpu();
-    placement = {gpu.get(), info.kind == DeviceKind::Hybrid ? cpu.get() : gpu.get()};
-    waits_on_cpu = false;
-    plan.most_launched = k_none;
-    pairs_last.begin_anew();
-    list_lasts.begin_anew();
-    begin_graph_anew();
-    log(LogLevel::Info,
-        fmt::format("the GPU's kernels are ready: it makes the steps from number {} on", finished_count + 1));
-}
-
 void Simulation::enqueue(Pending entry) {
     StepPlan now = plan_step(entry.population);
     const bool other_bodies = entry.population.slots != enqueued_slots;
     const bool strays = !pairs_last.holds(), all = !list_lasts.holds() || moves_bodies(entry.changes) || other_bodies;
-    now.search = all || (strays && now.sweeps_in_group()) ? Search::All : strays ? Search::Strays : Search::None;
+    now.search = all ? Search::All : strays ? Search::Strays : Search::None;
     now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || settings.sleeping ||
                       placement.hybrid() || !has_the_graph_of(now, newest_plan);
     now.makes_graph = now.other_graph || !graph_lasts.holds();

@@ -149,13 +149,18 @@ private:
     StepPlan plan_in_launches(const Population&, IslandSolve) const;
     /// Whether a step may launch one of the kernels that it can do without: they take a driver longest to compile.
     bool may_launch(const Kernel&) const;
-    /// Before the first step: the GPU's driver may compile all of its kernels side by side.
-    void prepare_kernels(const Population&);
+    // ---- where steps are made: first_steps.cpp ----
+
     /// Before each step. The CPU makes the first ones while the GPU's driver compiles what none can do without.
     void choose_placement(const Population&);
+    /// Where steps are made once the GPU's kernels are ready.
+    Placement placement_with_kernels() const;
+    /// The GPU's driver may compile all that a step needs side by side.
+    void begin_kernels(const Population&);
     bool may_be_on_cpu(const Population&) const;
     void begin_on_cpu();
     void move_to_gpu();
+
     ContactDemand contact_demand(uint pairs, uint manifolds, uint bodies) const;
     /// As the device needs it for its part of a step.
     void reserve_contacts(Device&, ContactDemand) const;
@@ -191,7 +196,7 @@ private:
     std::uint32_t cpu_threads = 0;  ///< WorldOptions::threads
     bool profiles = false;          ///< WorldOptions::profile
     bool waits_for_kernels = false; ///< WorldOptions::wait_for_kernels
-    bool kernels_prepared = false;
+    bool kernels_begun = false;
     bool waits_on_cpu = false;                         ///< until the GPU has these:
     std::vector<const Kernel*> needed_kernels;         ///< without which it makes no step
     std::chrono::steady_clock::duration newest_time{}; ///< of the newest step, where the CPU made it

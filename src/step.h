@@ -65,7 +65,7 @@ struct StepPlan {
 
     /// Islands are found, and each has sub-steps of its own.
     bool has_islands() const { return small || !one_island; }
-    /// The search for all pairs, which asks itself whether it is due.
+    /// The search for all pairs is that of one work group.
     bool sweeps_in_group() const { return small && broad_phase == BroadPhase::SweepAndPrune; }
     /// In a large world; also where no more is wanted of them than whether they sleep.
     bool measures_islands() const { return !small && (!one_island || sleeping); }

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "broad_phase/box_now.h"
-#include "broad_phase/lane_sweep.h"
+#include "broad_phase/lane_search.h"
 #include "device/cpu/flush_denormals.h"
 #include "device/cpu/instruction_set.h"
 #include "narrow_phase/lane_queries.h"
@@ -23,7 +23,7 @@ namespace talus::engine {
 
 extern const LanePasses lane_passes_base, lane_passes_avx2;
 extern const LaneQueries lane_queries_base, lane_queries_avx2;
-extern const LaneSweep lane_sweep_base, lane_sweep_avx2;
+extern const LaneSearch lane_search_base, lane_search_avx2;
 
 namespace {
 
@@ -420,7 +420,7 @@ TEST(Lanes, find_partners_as_one_at_a_time) {
         if (i % 10 == 9) boxes[i] = {vec3(3.0e38f), 0.0f, vec3(-3.0e38f), 0u}; // an empty slot
         if (i % 10 == 8) boxes[i].lower.x = boxes[i - 1].upper.x;              // these touch
     }
-    for (const LaneSweep* sweep : TALUS_RUNNABLE(lane_sweep)) {
+    for (const LaneSearch* sweep : TALUS_RUNNABLE(lane_search)) {
         SCOPED_TRACE(std::to_string(sweep->lanes) + " lanes");
         const std::size_t lines = sweep->batch_bytes / sizeof(Line);
         std::vector<Line> batches(lines * (k_boxes / sweep->lanes + 1));
@@ -434,6 +434,79 @@ TEST(Lanes, find_partners_as_one_at_a_time) {
                     if (is_candidate(boxes[i], boxes[k])) wanted.push_back(k);
                 found.resize(sweep->find_partners(boxes[i], batches.data(), i, end, found.data()));
                 EXPECT_EQ(found, wanted) << i;
+            }
+        }
+    }
+}
+
+/// Boxes at random, some of them turned, some far larger than others, a third unmovable, and the tree over them in the
+/// order in which they are; those from `end` on are empty.
+struct TreeOfBoxes {
+    TreeOfBoxes(uint count, uint end_of_bodies) : top(tree_top(count)), end(end_of_bodies) {
+        std::mt19937 random(count);
+        const auto number = [&](float size) { return std::uniform_real_distribution<float>(-size, size)(random); };
+        for (uint i = 0; i < count; ++i) {
+            const float size = i % 9 == 4 ? 2.0f : 0.5f;
+            OrientedBox box{};
+            box.centre = {number(4.0f), number(4.0f), number(4.0f)};
+            box.rotation = i % 2 == 0 ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : vec4(0.5f, -0.5f, 0.1f, 0.7f);
+            box.half_extents = vec3(size) + vec3(number(0.2f), number(0.2f), number(0.2f));
+            box.margin = 0.02f;
+            box.type = (i % 3 == 0 ? k_kind_static : k_kind_rigid) << 8;
+            boxes.push_back(box);
+            bodies.push_back(count - 1 - i); // another order
+        }
+        nodes.resize(tree_node(count - 1, 0, top) + 1, empty_box());
+        for (uint place = 0; place < end; ++place)
+            nodes[tree_node(place, 0, top)] = compute_aabb(boxes[bodies[place]]);
+        for (uint shift = k_tree_bits; shift <= top; shift += k_tree_bits)
+            for (uint place = 0; place < end; ++place) {
+                Aabb& node = nodes[tree_node(place, shift, top)];
+                node = unite_boxes(node, nodes[tree_node(place, 0, top)]);
+            }
+    }
+
+    std::vector<uint> partners_of(uint own) const {
+        std::vector<uint> partners;
+        for (uint place = own + 1; place < end; ++place)
+            if (is_candidate(nodes[tree_node(own, 0, top)], nodes[tree_node(place, 0, top)]) &&
+                !faces_part(boxes[bodies[own]], boxes[bodies[place]]))
+                partners.push_back(place);
+        return partners;
+    }
+
+    TreeView view() const { return {nodes.data(), boxes.data(), bodies.data(), top, end}; }
+
+    uint top, end;
+    std::vector<OrientedBox> boxes;
+    std::vector<uint> bodies;
+    std::vector<Aabb> nodes;
+};
+
+TEST(Lanes, search_a_tree_as_one_at_a_time) {
+    for (const auto& [count, end] : std::vector<std::pair<uint, uint>>{{1, 1}, {2, 2}, {7, 7}, {64, 61}, {300, 300}}) {
+        const TreeOfBoxes tree(count, end);
+        for (const LaneSearch* search : TALUS_RUNNABLE(lane_search)) {
+            SCOPED_TRACE(std::to_string(search->lanes) + " lanes, " + std::to_string(count) + " bodies");
+            std::size_t sum = 0;
+            for (uint first = 0; first < count; ++first) {
+                const uint lanes = min(search->lanes, count - first);
+                std::vector<std::vector<uint>> found(lanes);
+                const TakePartner take = [](void* lists, uint place, uint bits) {
+                    for (auto& list : *static_cast<std::vector<std::vector<uint>>*>(lists)) {
+                        if ((bits & 1u) != 0) list.push_back(place);
+                        bits >>= 1;
+                    }
+                    EXPECT_EQ(bits, 0u) << "a lane without a body";
+                };
+                search->search_tree(tree.view(), first, lanes, take, &found);
+                for (uint lane = 0; lane < lanes; ++lane) {
+                    EXPECT_EQ(found[lane], tree.partners_of(first + lane)) << first << " + " << lane;
+                    sum += found[lane].size();
+                }
+            }
+            if (count >= 64) {
+                EXPECT_GT(sum, count);
             }
         }
     }

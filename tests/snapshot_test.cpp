@@ -137,6 +137,29 @@ TEST_P(SnapshotOnDevice, wakes_whom_the_next_step_was_to_wake) {
     EXPECT_EQ(hashes_of_steps(world, 3), first);
 }
 
+TEST_P(SnapshotOnDevice, lets_a_body_in_a_used_slot_sleep_as_the_world_would) {
+    Settings sleeping;
+    sleeping.sleeping = true;
+    World world = make_world(sleeping), other = make_world(sleeping);
+    const BodyId top = fill(world, "stack:height=3").back();
+    const BodyDefinition again = scenes::make_scene("stack:height=3").bodies.back().definition;
+    world.step(10);
+    world.remove(top); // at the end, so that the slot is given up
+    world.step(2);
+    other.restore(world.snapshot());
+    for (World* each : {&world, &other}) {
+        each->step(3);
+        each->add(again);
+    }
+    for (int i = 0; i < 60; ++i) {
+        world.step();
+        other.step();
+        ASSERT_EQ(world.report().sleeping_bodies, other.report().sleeping_bodies) << "step " << i;
+        ASSERT_EQ(world.state_hash(), other.state_hash()) << "step " << i;
+    }
+    EXPECT_EQ(world.report().sleeping_bodies, 3u);
+}
+
 TEST_P(SnapshotOnDevice, undoes_what_was_done_to_the_world) {
     World world = make_world();
     const std::vector<BodyId> ids = fill(world, "pyramid:base=5");

@@ -17,7 +17,8 @@ namespace talus {
 struct StepReport {
     std::uint64_t step = 0;               ///< how many steps the world had made with this one
     DeviceKind device = DeviceKind::Auto; ///< that made it: the Cpu also while a GPU's kernels are being compiled (see
-                                          ///< WorldOptions::wait_for_kernels); Auto before the first step
+                                          ///< WorldOptions::wait_for_kernels); Auto before the first step, and where
+                                          ///< a snapshot comes from a file
     std::uint32_t pairs = 0;              ///< of bodies that may touch, as no face keeps them apart; with a skin of
                                           ///< up to 2.5 mm, when they were last searched
     std::uint32_t manifolds = 0;          ///< pairs that touch, or are about to; without those of sensors

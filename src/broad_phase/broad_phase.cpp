@@ -88,17 +88,18 @@ static void search_all(Device& device, const StepPlan& plan) {
 // What it launches does nothing in a step whose pairs are still those of the last search, or where a smaller search
 // does.
 static void search(Device& device, const StepPlan& plan) {
-    if (plan.search == Search::All && plan.sweeps_in_group()) {
-        reserve_sweep(device);
-        device.run({.kernel = order_bodies, .items = 1});
-        device.run({.kernel = sweep_in_group, .items = 1});
-        return;
-    }
     device.run({.kernel = find_strays, .items = plan.body_count});
     if (plan.search == Search::None) return;
     device.run({.kernel = search_strays, .items = std::max(plan.body_count, plan.pair_capacity)});
     device.run({.kernel = add_pairs, .items = 1});
-    if (plan.search == Search::All) search_all(device, plan);
+    if (plan.search != Search::All) return;
+    if (plan.sweeps_in_group()) {
+        reserve_sweep(device);
+        device.run({.kernel = order_bodies, .items = 1});
+        device.run({.kernel = sweep_in_group, .items = 1});
+    } else {
+        search_all(device, plan);
+    }
 }
 
 void broad_phase(Device& device, const StepPlan& plan) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One group does for a small world what find_strays, update_aabbs, measure_spread, choose_axis, write_sort_keys, the sort
-// and gather_aabbs do for a large one, with the same results: seven dispatches that wait for each other become one.
-// Reads: Counters, Poses, Velocities, Shapes, OrientedBoxes.
-// Writes: Counters, OrientedBoxes, Aabbs, SpreadSums, SweepAxes, SortKeys, SortValues, SortedAabbs.
-// Needs: nothing. At most k_island_bodies body slots.
-// Overflow: none; as of find_strays.
+// One group does for a small world what update_aabbs, measure_spread, choose_axis, write_sort_keys, the sort and gather_aabbs do
+// for a large one, with the same results: six dispatches that wait for each other become one.
+// Reads: Counters, Poses, Velocities, Shapes.
+// Writes: OrientedBoxes, Aabbs, SpreadSums, SweepAxes, SortKeys, SortValues, SortedAabbs.
+// Needs: a barrier after find_strays. At most k_island_bodies body slots.
+// Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
@@ -13,11 +13,11 @@
 
 layout(local_size_x = 512) in;
 
-layout(std430) buffer Counters { uint counters[]; };
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
-layout(std430) buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
+layout(std430) writeonly buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
 layout(std430) coherent buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) writeonly buffer SpreadSums { SpreadSum spread_sums[]; };
 layout(std430) writeonly buffer SweepAxes { SweepAxis sweep_axes[]; };
@@ -32,7 +32,6 @@ const uint k_spread_groups = k_island_bodies / k_spread_group; // 4
 shared SpreadSum sums[k_spread_group];
 shared SpreadSum group_sums[k_spread_groups];
 shared SweepAxis sweep_axis;
-shared bool strays;
 
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
 Aabb load_aabb(uint body)
@@ -75,14 +74,7 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     uint body_count = parameters.body_count;
-    if (counters[k_counter_did_not_fit] != 0u) return;
-    if (me == 0u) strays = counters[k_counter_searched_slots] != body_count;
-    barrier();
-    for (uint body = me; body < body_count; body += gl_WorkGroupSize.x)
-        if (!is_within(box_now(body), unpack(oriented_boxes[body]))) strays = true;
-    barrier();
-    if (!strays) return;
-    if (me == 0u) counters[k_counter_search_count] = body_count;
+    if (counters[k_counter_search_count] == 0u) return;
     for (uint body = me; body < body_count; body += gl_WorkGroupSize.x) {
         OrientedBox box = box_with_skin(body);
         oriented_boxes[body] = pack(box);

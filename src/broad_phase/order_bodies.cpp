@@ -10,8 +10,6 @@ namespace talus::engine {
 static_assert(k_island_bodies <= k_sort_in_group_keys);
 
 static void order_bodies_on_cpu(CpuState& state, const Launch& launch) {
-    find_strays.twin(state, launch);
-    if (state.counters[k_counter_stray_count] > 0) state.counters[k_counter_search_count] = state.parameters.body_count;
     if (state.counters[k_counter_search_count] == 0) return;
     for (const Kernel* kernel : {&update_aabbs, &measure_spread, &choose_axis, &write_sort_keys})
         kernel->twin(state, launch);

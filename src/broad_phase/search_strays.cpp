@@ -1,44 +1,56 @@
 // SPDX-License-Identifier: MIT
-// CPU twin of search_strays.comp.glsl.
+// CPU twin of search_strays.comp.glsl. Each body is compared with several strays side by side.
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <span>
 
 #include "broad_phase/box_now.h"
 #include "broad_phase/broad_phase.h"
+#include "broad_phase/lane_search.h"
 
 namespace talus::engine {
 
 static_assert(k_most_strays <= k_group_size, "an invocation of a group for each stray");
 
 static void search_strays_on_cpu(CpuState& state, const Launch&) {
-    Array<uint>& counters = state.counters;
+    const Array<uint>& counters = state.counters;
     if (counters[k_counter_search_count] != 0) return;
-    const std::span strays(state.strays.data, counters[k_counter_stray_count]);
+    const std::span<const uint> strays(state.strays.data, counters[k_counter_stray_count]);
     if (strays.empty()) return;
-    const auto is_stray = [&](uint body) { return std::ranges::find(strays, body) != strays.end(); };
-    const auto note = [&](Array<Pair>& list, uint counter, Pair pair) {
-        const uint place = counters[counter]++;
+    std::array<OrientedBox, k_most_strays> oriented;
+    std::array<Aabb, k_most_strays> boxes;
+    std::ranges::transform(strays, oriented.begin(), [&](uint stray) { return box_with_skin(state, stray); });
+    std::transform(oriented.begin(), oriented.begin() + strays.size(), boxes.begin(), compute_aabb);
+    SearchMemory& memory = SearchMemory::of(state);
+    memory.take_boxes(state, std::span(boxes).first(strays.size()));
+    std::vector<bool> is_stray(state.parameters.body_count);
+    for (const uint stray : strays)
+        is_stray[stray] = true;
+
+    const auto note = [&](const Array<Pair>& list, uint counter, Pair pair) {
+        const uint place = std::atomic_ref(counters[counter]).fetch_add(1);
         if (place < k_most_stray_pairs)
             list[place] = pair;
         else
-            counters[k_counter_search_count] = state.parameters.body_count;
+            std::atomic_ref(counters[k_counter_search_count]).store(state.parameters.body_count);
     };
-    for (const uint stray : strays) {
-        const OrientedBox oriented = box_with_skin(state, stray);
-        const Aabb box = compute_aabb(oriented);
-        for (uint body = 0; body < state.parameters.body_count; ++body) {
-            const bool strays_too = is_stray(body);
-            if (strays_too && body <= stray) continue;
-            const OrientedBox other = strays_too ? box_with_skin(state, body) : state.oriented_boxes[body];
-            const Aabb other_box = strays_too ? compute_aabb(other) : state.aabbs[body];
-            if (is_candidate(box, other_box) && !faces_part(oriented, other))
-                note(state.near_pairs, k_counter_near_pairs, make_pair(stray, body));
+    SearchMemory::for_each_part(state, state.parameters.body_count, [&](uint, uint first, uint end) {
+        std::vector<uint> near;
+        for (uint body = first; body < end; ++body) {
+            const OrientedBox other = is_stray[body] ? box_with_skin(state, body) : state.oriented_boxes[body];
+            near.clear();
+            memory.find_partners(is_stray[body] ? compute_aabb(other) : state.aabbs[body], 0,
+                                 static_cast<uint>(strays.size()), near);
+            for (const uint i : near)
+                if ((!is_stray[body] || body > strays[i]) && !faces_part(oriented[i], other))
+                    note(state.near_pairs, k_counter_near_pairs, make_pair(strays[i], body));
         }
-    }
-    for (uint i = 0; i < counters[k_counter_pair_demand]; ++i) {
+    });
+    state.parallel(counters[k_counter_pair_demand], [&](uint i) {
         const Pair pair = state.pairs[i];
-        if (is_stray(pair.body_a) || is_stray(pair.body_b)) note(state.known_pairs, k_counter_known_pairs, pair);
-    }
+        if (is_stray[pair.body_a] || is_stray[pair.body_b]) note(state.known_pairs, k_counter_known_pairs, pair);
+    });
 }
 
 const Kernel search_strays{"broad_phase/search_strays", search_strays_on_cpu};

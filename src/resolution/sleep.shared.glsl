@@ -41,6 +41,14 @@ inline BodyRest begin_rest(BodyPose pose)
     return rest;
 }
 
+// The same before a step, where `kept` is what is kept of it: nothing yet of a body that has not rested, or of the one that
+// had its slot before.
+inline BodyRest rest_so_far(BodyPose pose, BodyRest kept)
+{
+    if ((pose.flags >> k_rest_shift) == 0u) return begin_rest(pose);
+    return kept;
+}
+
 // Whether a body has gone too far from where its rest began, or of late, or moved too fast in this step to be said to rest.
 inline bool ends_rest(BodyPose pose, BodyDelta delta, BodyRest rest, BodyShape shape, Parameters p)
 {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <new>
 
-#include "broad_phase/lane_sweep.h"
+#include "broad_phase/lane_search.h"
 #include "device/cpu/cpu_state.h"
 #include "device/cpu/flush_denormals.h"
 #include "resolution/solve_islands.h"
@@ -94,7 +94,7 @@ public:
         std::uint64_t sum = 0;
         for (const Storage& storage : storages)
             sum += storage.size();
-        if (state.sweep_memory != nullptr) sum += state.sweep_memory->memory_bytes();
+        if (state.search_memory != nullptr) sum += state.search_memory->memory_bytes();
         if (state.solver_batches != nullptr) sum += engine::memory_bytes(*state.solver_batches);
         if (state.island_memory != nullptr) sum += state.island_memory->memory_bytes();
         return sum;

@@ -42,7 +42,7 @@ struct CpuState {
     const CpuThreads* threads = nullptr;
     bool some_bounce = false; ///< so that hits are kept, as the launch says that solves
     // What twins keep from launch to launch:
-    std::shared_ptr<class SweepMemory> sweep_memory;      ///< sweep_pairs
+    std::shared_ptr<class SearchMemory> search_memory;    ///< of the broad phase
     std::shared_ptr<struct SolverBatches> solver_batches; ///< integrate_bodies, solve_contacts
     std::shared_ptr<class IslandMemory> island_memory;    ///< those that solve islands
 };

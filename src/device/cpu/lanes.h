@@ -237,6 +237,12 @@ TALUS_OPERATOR(-)
 TALUS_OPERATOR(*)
 #undef TALUS_OPERATOR
 
+TALUS_LANE vec3 min(vec3 a, vec3 b) {
+    return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+TALUS_LANE vec3 max(vec3 a, vec3 b) {
+    return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
 TALUS_LANE vec3 abs(vec3 v) {
     return {abs(v.x), abs(v.y), abs(v.z)};
 }

@@ -268,18 +268,18 @@ bool GlDevice::make_ready(std::span<const Kernel* const> kernels, std::chrono::m
         return !is_finished(kernel) && begun_program(*kernel).is_compiled();
     };
     make_current();
-    do {
+    while (!std::ranges::all_of(kernels, is_finished)) {
         // The last first: those that take longest are given first.
         const auto next = std::find_if(kernels.rbegin(), kernels.rend(), may_finish);
         if (next != kernels.rend()) {
             GlProgram& program = begun_program(**next);
             program.finish(objects_->cache);
             launch_nothing(program);
-        } else {
-            nap();
         }
-    } while (std::chrono::steady_clock::now() < end && !std::ranges::all_of(kernels, is_finished));
-    return std::ranges::all_of(kernels, is_finished);
+        if (std::chrono::steady_clock::now() >= end) return std::ranges::all_of(kernels, is_finished);
+        if (next == kernels.rend()) nap();
+    }
+    return true;
 }
 
 void GlDevice::launch_nothing(const GlProgram& kernel) {

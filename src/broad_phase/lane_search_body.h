@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// LaneSearch for one set of instructions. Included once by each lane_search_*.cpp.
+#pragma once
+
+#include "broad_phase/lane_search.h"
+#include "device/cpu/lane_formulas.h"
+
+namespace talus::engine::TALUS_LANES_NAME {
+
+static_assert(sizeof(Aabb) % 64 == 0, "lines of SearchMemory");
+
+// The way through the tree is one for all lanes. Once more here, as functions that are not inlined may only be compiled
+// for every machine.
+TALUS_LANE int findLSB(std::uint32_t value) {
+    return __builtin_ctz(value);
+}
+#pragma GCC diagnostic push
+#if defined(__clang__)
+#pragma GCC diagnostic ignored "-Wkeyword-macro"
+#endif
+#define inline [[gnu::always_inline]] inline
+#include "broad_phase/tree.shared.glsl"
+#undef inline
+#pragma GCC diagnostic pop
+
+inline void take_boxes(const engine::Aabb* boxes, std::uint32_t count, void* memory) {
+    std::uint32_t places[k_lanes];
+    for (std::uint32_t lane = 0; lane < k_lanes; ++lane)
+        places[lane] = lane < count ? lane : 0;
+    const auto lower = gather(boxes, places, 0), upper = gather(boxes, places, 1);
+    *static_cast<Aabb*>(memory) = {three_of(lower), lower.w, three_of(upper), floatBitsToUint(upper.w)};
+}
+
+inline std::uint32_t find_partners(const engine::Aabb& box, const void* memory, std::uint32_t first, std::uint32_t end,
+                                   std::uint32_t* partners) {
+    const Aabb* const batches = static_cast<const Aabb*>(memory);
+    const Aabb own{box.lower, box.margin, box.upper, box.movable};
+    std::uint32_t count = 0;
+    for (std::uint32_t batch = first / k_lanes; batch * k_lanes < end; ++batch) {
+        const std::uint32_t place = batch * k_lanes;
+        std::uint32_t found = bits_of(is_candidate(own, batches[batch]));
+        if (place < first) found &= k_lane_mask << (first - place);
+        if (end - place < k_lanes) found &= (1u << (end - place)) - 1u;
+        for (; found != 0; found &= found - 1)
+            partners[count++] = place + static_cast<std::uint32_t>(__builtin_ctz(found));
+    }
+    return count;
+}
+
+inline void search_tree(const TreeView& tree, std::uint32_t first, std::uint32_t count, TakePartner take,
+                        void* context) {
+    std::uint32_t leaves[k_lanes], bodies[k_lanes];
+    for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
+        const std::uint32_t place = first + (lane < count ? lane : 0);
+        leaves[lane] = tree_node(place, 0, tree.top);
+        bodies[lane] = tree.bodies[place];
+    }
+    const auto lower = gather(tree.nodes, leaves, 0), upper = gather(tree.nodes, leaves, 1);
+    const Aabb own{three_of(lower), lower.w, three_of(upper), floatBitsToUint(upper.w)};
+    const auto centre = gather(tree.boxes, bodies, 0), extents = gather(tree.boxes, bodies, 2);
+    const OrientedBox own_oriented{three_of(centre), centre.w, all_of(gather(tree.boxes, bodies, 1)), three_of(extents),
+                                   floatBitsToUint(extents.w)};
+    const std::uint32_t all = (1u << count) - 1u;
+    std::uint32_t shift = 0;
+    for (std::uint32_t place = first + 1; place < tree.end; place += 1u << shift, shift = tree_shift_from(place)) {
+        std::uint32_t found = 0;
+        for (;; shift -= k_tree_bits) {
+            const engine::Aabb& node = tree.nodes[tree_node(place, shift, tree.top)];
+            found = bits_of(is_candidate(own, Aabb{node.lower, node.margin, node.upper, node.movable})) & all;
+            // Lanes that begin behind all of the node's places.
+            const std::uint32_t before = place + (1u << shift) - 1u - first;
+            if (before < count) found &= (1u << before) - 1u;
+            if (found == 0 || shift == 0) break;
+        }
+        if (found == 0) continue;
+        const engine::OrientedBox& other = tree.boxes[tree.bodies[place]];
+        const vec4 rotation{other.rotation.x, other.rotation.y, other.rotation.z, other.rotation.w};
+        const OrientedBox oriented{other.centre, other.margin, rotation, other.half_extents, other.type};
+        found &= ~bits_of(faces_part(own_oriented, oriented));
+        if (found != 0) take(context, place, found);
+    }
+}
+
+} // namespace talus::engine::TALUS_LANES_NAME

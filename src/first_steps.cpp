@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Where steps are made. The CPU makes the first ones of a world on a GPU, with the same bits, while the GPU's driver
+// compiles the kernels that no step can do without.
+#include "device/cpu/cpu_threads.h"
+#include "device/kernel_list.h"
+#include "hand_over.h"
+#include "log.h"
+#include "primitives/primitives.h"
+#include "resolution/resolution.h"
+#include "simulation.h"
+
+#include <fmt/format.h>
+
+namespace talus::engine {
+namespace {
+
+// How long a first step waits for kernels: enough where the driver has them from an earlier start.
+constexpr std::chrono::milliseconds k_patience_with_kernels{150};
+// With more bodies for each thread of the CPU, to wait for the driver is likely to be quicker.
+constexpr std::uint64_t k_most_bodies_a_thread = 65'536;
+
+} // namespace
+
+Placement Simulation::placement_with_kernels() const {
+    return {gpu ? gpu.get() : cpu.get(), info.kind == DeviceKind::Gpu ? gpu.get() : cpu.get()};
+}
+
+void Simulation::begin_kernels(const Population& population) {
+    const Placement last = placement_with_kernels();
+    StepPlan quickest = plan_in_launches(population, IslandSolve::Groups);
+    // How many groups it will have is found by a trial of the kernel itself.
+    if (quickest.may_be_persistent() && gpu->loops_freely()) quickest.persistent_groups = 1;
+    // What a large world may need at any time.
+    quickest.singles = quickest.has_groups();
+    StepPlan first = waits_for_kernels ? quickest : plan_in_launches(population, IslandSolve::Launches);
+    KernelList list(*placement.detection); // which has the plan's room
+    const auto note = [&](Stage stage, const StepPlan& by) {
+        if (&last.of(stage) == gpu.get()) run_stage(list, stage, by);
+    };
+    // What the first step waits for comes first, and of that what a driver compiles longest.
+    note(Stage::NarrowPhase, first);
+    note(Stage::Solve, first);
+    for (const Stage stage : k_stages)
+        note(stage, first);
+    first.search = Search::None;
+    note(Stage::BroadPhase, first);
+    if (!first.small && !last.hybrid()) list.run({.kernel = weigh_hubs});
+    scatter_changed_records(list, BufferId::Poses, 1);
+    needed_kernels = list.kernels;
+    note(Stage::Solve, quickest);
+    gpu->prepare(list.kernels);
+}
+
+void Simulation::choose_placement(const Population& population) {
+    const bool is_first = !kernels_begun;
+    if (!gpu || (!is_first && !waits_on_cpu)) return;
+    kernels_begun = true;
+    begin_kernels(population); // anew, as the caller may have changed what a step needs
+    if (is_first && (waits_for_kernels || info.in_software)) return;
+    if (!may_be_on_cpu(population)) {
+        if (waits_on_cpu) move_to_gpu();
+        return;
+    }
+    // Where the CPU's steps are quick the caller is kept for one kernel, and else for as long again as a step takes.
+    using std::chrono::milliseconds;
+    const milliseconds patience =
+        is_first ? k_patience_with_kernels : std::chrono::duration_cast<milliseconds>(newest_time);
+    const bool ready = gpu->make_ready(needed_kernels, patience);
+    if (is_first && !ready) begin_on_cpu();
+    if (waits_on_cpu && ready) move_to_gpu();
+}
+
+bool Simulation::may_be_on_cpu(const Population& population) const {
+    return population.slots <= k_most_bodies_a_thread * (cpu_threads > 0 ? cpu_threads : available_threads());
+}
+
+void Simulation::begin_on_cpu() {
+    if (!cpu) {
+        std::unique_ptr<Device> host = make_cpu_device(cpu_threads, profiles);
+        try {
+            for (std::size_t i = 0; i < k_buffers.size(); ++i)
+                host->grow(static_cast<BufferId>(i), gpu->size(static_cast<BufferId>(i)));
+        } catch (const Error& error) {
+            log(LogLevel::Info, std::string("a step waits for the GPU's kernels: ") + error.what());
+            return;
+        }
+        hand_over_state(*gpu, *host, {enqueued_slots, newest_report.pairs});
+        cpu = std::move(host);
+    }
+    log(LogLevel::Info, "the GPU's kernels are still being compiled: until then the CPU makes the steps");
+    placement = {cpu.get(), cpu.get()};
+    waits_on_cpu = true;
+}
+
+void Simulation::show_on_gpu() {
+    if (waits_on_cpu) {
+        reserve_contacts(*gpu, contact_demand(plan.pair_capacity, plan.manifold_capacity, body_capacity));
+        hand_over_drawn(*cpu, *gpu, {enqueued_slots, newest_report.pairs});
+    } else if (placement.hybrid()) {
+        hand_over_places(*cpu, *gpu, enqueued_slots);
+    }
+}
+
+void Simulation::move_to_gpu() {
+    settle();
+    reserve_contacts(*gpu, contact_demand(plan.pair_capacity, plan.manifold_capacity, body_capacity));
+    hand_over_state(*cpu, *gpu, {enqueued_slots, newest_report.pairs});
+    kept_count = 0; // constraints stay, as the next step makes them anew
+    placement = placement_with_kernels();
+    waits_on_cpu = false;
+    plan.most_launched = k_none;
+    pairs_last.begin_anew();
+    list_lasts.begin_anew();
+    begin_graph_anew();
+    log(LogLevel::Info, fmt::format("the GPU makes the steps from number {} on", finished_count + 1));
+}
+
+} // namespace talus::engine
