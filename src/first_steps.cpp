@@ -19,10 +19,17 @@ constexpr std::chrono::milliseconds k_patience_with_kernels{150};
 // With more bodies for each thread of the CPU, to wait for the driver is likely to be quicker.
 constexpr std::uint64_t k_most_bodies_a_thread = 65'536;
 
+/// In a small world, one that a work group would take long for.
+bool may_have_large_island(const StepPlan& plan) {
+    constexpr uint k_fewest_bodies = 256;
+    return plan.small && plan.in_groups && plan.body_count >= k_fewest_bodies;
+}
+
 } // namespace
 
 Placement Simulation::placement_with_kernels() const {
-    return {gpu ? gpu.get() : cpu.get(), info.kind == DeviceKind::Gpu ? gpu.get() : cpu.get()};
+    Device* const detection = gpu ? gpu.get() : cpu.get();
+    return {detection, info.kind == DeviceKind::Hybrid ? cpu.get() : detection};
 }
 
 void Simulation::begin_kernels(const Population& population) {
@@ -48,6 +55,12 @@ void Simulation::begin_kernels(const Population& population) {
     scatter_changed_records(list, BufferId::Poses, 1);
     needed_kernels = list.kernels;
     note(Stage::Solve, quickest);
+    if (may_have_large_island(quickest) && gpu->loops_freely()) {
+        quickest.in_groups = false;
+        quickest.persistent_groups = 1;
+        note(Stage::Solve, quickest);
+    }
+    if (waits_for_kernels) needed_kernels = list.kernels;
     gpu->prepare(list.kernels);
 }
 
@@ -56,7 +69,11 @@ void Simulation::choose_placement(const Population& population) {
     if (!gpu || (!is_first && !waits_on_cpu)) return;
     kernels_begun = true;
     begin_kernels(population); // anew, as the caller may have changed what a step needs
-    if (is_first && (waits_for_kernels || info.in_software)) return;
+    if (is_first && info.in_software) return;
+    if (is_first && waits_for_kernels) {
+        gpu->make_ready(needed_kernels, std::chrono::hours(1));
+        return;
+    }
     if (!may_be_on_cpu(population)) {
         if (waits_on_cpu) move_to_gpu();
         return;

@@ -37,6 +37,8 @@ constexpr uint k_most_bodies_each = 48;
 // the GPU, they need longer than it does: then its invocations have more contacts, and others the multiprocessors.
 constexpr uint k_much_beside = 16;
 constexpr uint k_manifolds_each_beside = 4;
+// Manifolds of an island of a small world from which on it is done sooner by that launch than by one work group.
+constexpr uint k_large_for_a_group = 900;
 // Pairs or manifolds, of which the share that comes and goes is small.
 constexpr uint k_large_demand = 131'072;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
@@ -155,11 +157,9 @@ Devices make_devices(const WorldOptions& options) {
 Simulation::Simulation(const WorldOptions& options, Devices devices)
     : gpu(std::move(devices.gpu)), cpu(std::move(devices.cpu)), cpu_threads(options.threads), profiles(options.profile),
       waits_for_kernels(options.wait_for_kernels) {
-    placement.detection = gpu ? gpu.get() : cpu.get();
-    placement.resolution = cpu ? cpu.get() : gpu.get();
-
-    info = placement.detection->info();
+    info = (gpu ? gpu : cpu)->info();
     info.kind = devices.kind;
+    placement = placement_with_kernels();
     info.why = devices.why;
     if (placement.hybrid()) {
         const DeviceInfo host = cpu->info();
@@ -241,7 +241,7 @@ void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
 }
 
 ContactDemand Simulation::contact_demand(uint pairs, uint manifolds, uint bodies) const {
-    const uint partners = k_kept_partners * bodies; // which the search keeps in PairTable
+    const uint partners = k_kept_partners * bodies; // which the search keeps in PairTable on a GPU
     return {pairs, manifolds, std::max(table_size_for(pairs), partners), watches_contacts()};
 }
 
@@ -321,7 +321,8 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     asked.waking = std::max(asked.waking, std::exchange(owed_waking, Waking::None));
     try {
         choose_placement(asked);
-    } catch (const Error&) { // of a faulty kernel. What the caller has changed is not to be lost with the step
+    } catch (
+        const Error&) { // a kernel is faulty, or the GPU has no room: what the caller has changed is not to be lost
         owed_waking = asked.waking;
         apply_now(asked, changes);
         throw;
@@ -403,8 +404,18 @@ bool Simulation::may_launch(const Kernel& kernel) const {
     return waits_for_kernels || placement.resolution->is_ready(kernel);
 }
 
+bool Simulation::may_leave_groups(const StepPlan& in_groups) const {
+    if (!in_groups.small || !in_groups.in_groups || in_groups.largest_island < k_large_for_a_group) return false;
+    StepPlan launched = in_groups;
+    launched.in_groups = false;
+    const Kernel& persistent = persistent_solver(launched);
+    Device& device = *placement.resolution;
+    return launched.may_be_persistent() && may_launch(persistent) && device.resident_groups(persistent) > 0;
+}
+
 StepPlan Simulation::plan_step(const Population& population) const {
     StepPlan now = plan_in_launches(population, IslandSolve::Groups);
+    if (may_leave_groups(now)) now = plan_in_launches(population, IslandSolve::Launches);
     // What the quickest plan has no use for is not asked for. What it has is, all at once: a driver compiles side by
     // side.
     const bool may_be_persistent = now.may_be_persistent() && placement.resolution->loops_freely();
@@ -568,6 +579,8 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     const uint launched = std::max(counters[k_counter_launched_manifolds], counters[k_counter_launched_bodies]);
     plan.most_launched = std::max(plan.most_launched, launched);
     window_launched = std::max(window_launched, launched);
+    plan.largest_island = std::max(plan.largest_island, counters[k_counter_largest_island]);
+    window_largest = std::max(window_largest, counters[k_counter_largest_island]);
     plan.singles = plan.singles || singles;
     window_singles = window_singles || singles;
     const uint wanted_colours = std::min(colours + 1, k_first_hub_colour); // one to spare
@@ -581,10 +594,12 @@ void Simulation::follow_demand(std::span<const uint> counters) {
     plan.substep_capacity = window_substeps;
     plan.overflow_count = window_overflow;
     plan.most_launched = window_launched;
+    plan.largest_island = window_largest;
     plan.singles = window_singles;
     if (window_hub_manifolds == 0) plan.hub_capacity = 0;
     window_singles = false;
-    window_steps = window_overflow = window_launched = window_colours = window_substeps = window_hub_manifolds = 0;
+    window_steps = window_largest = window_overflow = window_launched = window_colours = window_substeps =
+        window_hub_manifolds = 0;
 }
 
 void Simulation::make_contact_room(uint pairs, uint manifolds) {

@@ -147,6 +147,8 @@ private:
     /// The next step's plan without a persistent launch: with one for each colour and pass of all that no work groups
     /// solve.
     StepPlan plan_in_launches(const Population&, IslandSolve) const;
+    /// Whether the persistent launch does a small world's largest island sooner than a work group, and may be had.
+    bool may_leave_groups(const StepPlan& in_groups) const;
     /// Whether a step may launch one of the kernels that it can do without: they take a driver longest to compile.
     bool may_launch(const Kernel&) const;
     // ---- where steps are made: first_steps.cpp ----
@@ -155,7 +157,7 @@ private:
     void choose_placement(const Population&);
     /// Where steps are made once the GPU's kernels are ready.
     Placement placement_with_kernels() const;
-    /// The GPU's driver may compile all that a step needs side by side.
+    /// Notes which kernels a step of such a world needs, and has the GPU's driver begin with them, side by side.
     void begin_kernels(const Population&);
     bool may_be_on_cpu(const Population&) const;
     void begin_on_cpu();
@@ -215,6 +217,7 @@ private:
     uint window_substeps = 0;
     uint window_hub_manifolds = 0;
     uint window_overflow = 0, window_launched = 0;
+    uint window_largest = 0;
     bool window_singles = false;
     StepReport newest_report;
     uint solved_count = 0;             ///< manifolds, by the newest finished step

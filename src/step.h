@@ -45,6 +45,7 @@ struct StepPlan {
     bool small = false;          ///< up to k_island_bodies body slots
     bool one_island = false;     ///< islands are not told apart: a kinematic body may be part of several
     bool in_groups = false;      ///< work groups solve islands: each of a small world, the little ones of a large world
+    uint largest_island = 0;     ///< manifolds, lately, in a small world
     bool singles = false;        ///< in a large world a work group may solve a single island, too large to share one
     uint least_multirate = k_least_multirate; ///< bodies, where islands may be multirate
     uint colouring_groups = 1;                ///< that colour new contacts, waiting for each other

@@ -155,6 +155,35 @@ TEST_P(LateKernels, are_those_that_the_world_has_a_use_for) {
                                                             &engine::solve_persistent}));
 }
 
+TEST_P(LateKernels, solve_a_large_island_of_a_small_world_once_they_are_there) {
+    LateRun late(GetParam(), bodies_of("wall"), false), plain(GetParam(), bodies_of("wall"), true);
+    if (!late.device->loops_freely()) return; // it has no use for any
+    late.device->late = {&engine::solve_persistent};
+    plain.device->late = {};
+    for (int i = 0; i < 6; ++i) {
+        if (i == 4) late.device->late.clear();
+        late.device->ran.clear();
+        late.run->step();
+        plain.run->step();
+        const Kernel* const solver = i < 4 ? &engine::solve_islands : &engine::solve_persistent;
+        EXPECT_EQ(late.device->ran, std::set<const Kernel*>{solver}) << "step " << i;
+        EXPECT_FALSE(late.awaits_kernels()) << "a work group does it, too";
+        ASSERT_TRUE(late.run->motion() == plain.run->motion()) << "step " << i;
+    }
+    LateRun small(GetParam(), bodies_of("pool:boxes=300"), true);
+    for (int i = 0; i < 100; ++i)
+        small.run->step();
+    EXPECT_EQ(small.device->ran, std::set<const Kernel*>{&engine::solve_islands});
+}
+
+TEST_P(LateKernels, are_told_how_large_islands_are) {
+    std::vector<BodyDefinition> bodies = bodies_of("grid:stacks=3");
+    bodies.push_back(box_at({0.0f, 50.0f, 0.0f})); // touches nothing
+    LateRun stacks(GetParam(), bodies, true);
+    stacks.run->step();
+    EXPECT_EQ(stacks.run->counter(engine::k_counter_largest_island), 5u);
+}
+
 TEST_P(LateKernels, are_not_asked_for_where_the_caller_waits) {
     LateRun waiting(GetParam(), bodies_of("pool:boxes=20"), true);
     waiting.run->step();

@@ -53,6 +53,7 @@ void count_nothing()
     counters[k_counter_multirate_islands] = 0u;
     counters[k_counter_sleeping_manifolds] = 0u;
     counters[k_counter_singles] = 0u;
+    counters[k_counter_largest_island] = 0u;
     counters[k_counter_substep_demand] = parameters.least_substeps;
 }
 

@@ -22,7 +22,7 @@ static void count_nothing(CpuState& state) {
          {k_counter_manifold_count, k_counter_contact_count, k_counter_colour_demand, k_counter_overflow_count,
           k_counter_uncoloured, k_counter_hub_count, k_counter_hub_manifolds, k_counter_launched_colours,
           k_counter_launched_substeps, k_counter_launched_overflow, k_counter_sleeping_manifolds, k_counter_singles,
-          k_counter_multirate_islands})
+          k_counter_multirate_islands, k_counter_largest_island})
         state.counters[counter] = 0;
     state.counters[k_counter_substep_demand] = state.parameters.least_substeps;
 }

@@ -30,6 +30,8 @@ shared uint roots[k_island_bodies];
 shared bool touches[k_island_bodies];
 shared bool restless[k_island_bodies]; // of an island: any of it
 shared uint most_substeps[k_island_bodies];
+shared uint manifold_counts[k_island_bodies];
+shared uint largest;
 shared uint first_mover; // of those that touch nothing; of all, if all are one island
 shared bool changed;
 
@@ -69,6 +71,7 @@ void main()
     if (counters[k_counter_graph_bodies] == 0u) return;
     uint pair_count = counters[k_counter_graph_pairs];
     if (me == 0u) first_mover = k_none;
+    if (me == 0u) largest = 0u;
     barrier();
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
         roots[body] = is_movable(shapes[body]) ? body : k_none;
@@ -77,6 +80,7 @@ void main()
             parameters.rest_steps == 0u ||
             is_restless(unpack(poses[body]), unpack(velocities[body]), shapes[body], parameters);
         most_substeps[body] = parameters.least_substeps;
+        manifold_counts[body] = 0u;
     }
     barrier();
     // One island of all that is awake: which that is the true islands tell, where anything may sleep.
@@ -134,6 +138,7 @@ void main()
             island = roots[is_movable(shapes[body_a]) ? body_a : manifolds[pair].body_b];
             if (island != k_none) {
                 atomicMax(most_substeps[island], substeps_of(manifolds[pair].demand));
+                atomicAdd(manifold_counts[island], 1u);
             } else { // it sleeps, and wakes with the colour that it has
                 manifolds[pair].colour = colour;
                 atomicAdd(counters[k_counter_sleeping_manifolds], 1u);
@@ -147,5 +152,8 @@ void main()
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
         islands[body] = roots[body];
         substeps[body] = roots[body] == k_none ? 0u : most_substeps[roots[body]];
+        atomicMax(largest, manifold_counts[body]);
     }
+    barrier();
+    if (me == 0u) counters[k_counter_largest_island] = largest;
 }

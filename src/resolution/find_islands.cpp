@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of find_islands.comp.glsl: union-find with the lower slot as the root.
+#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <vector>
@@ -47,6 +48,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
         first_mover = min(first_mover, body);
         state.islands[body] = first_mover;
     }
+    std::vector<uint> manifold_counts(body_count, 0);
     for (uint pair = 0; pair < pair_count; ++pair) {
         uint colour = state.manifold_keys[pair];
         uint island = k_island_bodies; // after all others
@@ -55,6 +57,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
             island = state.islands[movable(manifold.body_a) ? manifold.body_a : manifold.body_b];
             if (island != k_none) {
                 state.substeps[island] = max(state.substeps[island], substeps_of(manifold.demand));
+                ++manifold_counts[island];
             } else { // it sleeps, and wakes with the colour that it has
                 manifold.colour = colour;
                 ++state.counters[k_counter_sleeping_manifolds];
@@ -66,6 +69,8 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
     }
     for (uint body = 0; body < body_count; ++body) // an island's lowest slot comes first, and has its number
         state.substeps[body] = state.islands[body] == k_none ? 0 : state.substeps[state.islands[body]];
+    const auto largest = std::ranges::max_element(manifold_counts);
+    state.counters[k_counter_largest_island] = largest == manifold_counts.end() ? 0 : *largest;
 }
 
 const Kernel find_islands{"resolution/find_islands", find_islands_on_cpu, 1};

@@ -105,7 +105,8 @@ const uint k_counter_near_pairs = 35u;  // of strays, that are near now
 const uint k_counter_added_pairs = 36u; // since the last search of all
 const uint k_counter_strayed = 37u;     // 1 where this step had to search, a few bodies or all
 const uint k_counter_wanted_pairs = 38u; // that the list would have with those of strays, where there is no room for them
-const uint k_counter_words = 39u;
+const uint k_counter_largest_island = 39u; // in a small world: manifolds of the island that has most
+const uint k_counter_words = 40u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
