@@ -484,7 +484,8 @@ struct TreeOfBoxes {
 };
 
 TEST(Lanes, search_a_tree_as_one_at_a_time) {
-    for (const auto& [count, end] : std::vector<std::pair<uint, uint>>{{1, 1}, {2, 2}, {7, 7}, {8, 8}, {9, 8}, {64, 61}, {257, 256}, {300, 300}, {1025, 1025}}) {
+    for (const auto& [count, end] : std::vector<std::pair<uint, uint>>{
+             {1, 1}, {2, 2}, {7, 7}, {8, 8}, {9, 8}, {64, 61}, {257, 256}, {300, 300}, {1025, 1025}}) {
         const TreeOfBoxes tree(count, end);
         for (const LaneSearch* search : TALUS_RUNNABLE(lane_search)) {
             SCOPED_TRACE(std::to_string(search->lanes) + " lanes, " + std::to_string(count) + " bodies");
