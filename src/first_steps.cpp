@@ -55,10 +55,10 @@ void Simulation::begin_kernels(const Population& population) {
     scatter_changed_records(list, BufferId::Poses, 1);
     needed_kernels = list.kernels;
     note(Stage::Solve, quickest);
-    if (may_have_large_island(quickest) && gpu->loops_freely()) {
+    if (may_have_large_island(quickest)) {
         quickest.in_groups = false;
-        quickest.persistent_groups = 1;
-        note(Stage::Solve, quickest);
+        quickest.persistent_groups = quickest.may_be_persistent() && gpu->loops_freely() ? 1 : 0;
+        if (quickest.persistent_groups > 0) note(Stage::Solve, quickest);
     }
     if (waits_for_kernels) needed_kernels = list.kernels;
     gpu->prepare(list.kernels);

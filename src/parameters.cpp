@@ -19,7 +19,7 @@ constexpr float k_baumgarte_slop = 0.005f;
 constexpr float k_jitter = 5.0f;
 
 // Contacts of a body that are more than so many share it, where the caller says nothing. A small world with such a body
-// is no longer solved by one work group, to which 62 colours are nothing. In a large world each colour of each pass is
+// is no longer solved by work groups, to which 62 colours are nothing. In a large world each colour of each pass is
 // a wait of all groups, and a hub's contacts cost as many as four.
 constexpr uint k_hub_contacts_of_small = 1000;
 constexpr uint k_hub_contacts_of_large = 32;

@@ -39,6 +39,7 @@ constexpr uint k_much_beside = 16;
 constexpr uint k_manifolds_each_beside = 4;
 // Manifolds of an island of a small world from which on it is done sooner by that launch than by one work group.
 constexpr uint k_large_for_a_group = 900;
+constexpr uint k_most_colours_to_leave = 20; // each is a wait, which costs a group little
 // Pairs or manifolds, of which the share that comes and goes is small.
 constexpr uint k_large_demand = 131'072;
 // After so many steps launches for colours and sub-steps that none of them needed are given up.
@@ -321,8 +322,8 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     asked.waking = std::max(asked.waking, std::exchange(owed_waking, Waking::None));
     try {
         choose_placement(asked);
-    } catch (
-        const Error&) { // a kernel is faulty, or the GPU has no room: what the caller has changed is not to be lost
+    } catch (const Error&) {
+        // A kernel is faulty, or the GPU has no room: what the caller has changed is not to be lost.
         owed_waking = asked.waking;
         apply_now(asked, changes);
         throw;
@@ -408,9 +409,19 @@ bool Simulation::may_leave_groups(const StepPlan& in_groups) const {
     if (!in_groups.small || !in_groups.in_groups || in_groups.largest_island < k_large_for_a_group) return false;
     StepPlan launched = in_groups;
     launched.in_groups = false;
-    const Kernel& persistent = persistent_solver(launched);
-    Device& device = *placement.resolution;
-    return launched.may_be_persistent() && may_launch(persistent) && device.resident_groups(persistent) > 0;
+    // With many colours, or where one invocation has some contacts to itself, a group is quicker.
+    if (!launched.may_be_persistent() || launched.overflow || newest_report.colours > k_most_colours_to_leave)
+        return false;
+    if (!placement.resolution->is_ready(persistent_solver(launched))) return false; // and need not be
+    return persistent_invocations(launched) >= std::uint64_t{2} * in_groups.largest_island;
+}
+
+std::uint64_t Simulation::persistent_invocations(const StepPlan& now) const {
+    const Kernel& persistent = persistent_solver(now);
+    const std::uint64_t invocations =
+        std::uint64_t{placement.resolution->resident_groups(persistent)} * persistent.items_a_group;
+    const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
+    return passes <= k_most_manifolds_each * invocations ? invocations : 0;
 }
 
 StepPlan Simulation::plan_step(const Population& population) const {
@@ -429,10 +440,9 @@ StepPlan Simulation::plan_step(const Population& population) const {
     if (now.hub_capacity > 0) now.weighing_groups = std::max(placement.resolution->resident_groups(weigh_hubs), 1u);
     if (!now.small) now.colouring_groups = std::max(placement.resolution->resident_groups(assign_colours), 1u);
     if (!may_be_persistent || awaits_persistent) return now;
-    const uint groups = placement.resolution->resident_groups(persistent);
-    const std::uint64_t invocations = std::uint64_t{groups} * persistent.items_a_group;
-    const std::uint64_t passes = std::uint64_t{solved_count} * now.iterations;
-    if (groups == 0 || passes > k_most_manifolds_each * invocations) return now;
+    const std::uint64_t invocations = persistent_invocations(now);
+    if (invocations == 0) return now;
+    const auto groups = static_cast<uint>(invocations / persistent.items_a_group);
     const std::uint64_t workers = persistent_workers(now, solved_count, invocations);
     // Islands that work groups solve are to run beside it, and it takes all of a multiprocessor for each of its groups.
     const uint spare = now.has_groups() ? groups / k_groups_a_spare : 0;

@@ -149,6 +149,8 @@ private:
     StepPlan plan_in_launches(const Population&, IslandSolve) const;
     /// Whether the persistent launch does a small world's largest island sooner than a work group, and may be had.
     bool may_leave_groups(const StepPlan& in_groups) const;
+    /// That may run side by side of the persistent launch; 0 where it cannot make all passes of the plan.
+    std::uint64_t persistent_invocations(const StepPlan&) const;
     /// Whether a step may launch one of the kernels that it can do without: they take a driver longest to compile.
     bool may_launch(const Kernel&) const;
     // ---- where steps are made: first_steps.cpp ----

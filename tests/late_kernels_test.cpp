@@ -48,7 +48,13 @@ public:
 
     std::set<const Kernel*> late;
     std::set<const Kernel*> asked;
+    std::set<const Kernel*> prepared;
     std::set<const Kernel*> ran;
+
+    void prepare(std::span<const Kernel* const> kernels) override {
+        prepared.insert(kernels.begin(), kernels.end());
+        device->prepare(kernels);
+    }
 
     bool make_ready(std::span<const Kernel* const> kernels, std::chrono::milliseconds) override {
         return device->make_ready(kernels, std::chrono::hours(1));
@@ -72,7 +78,7 @@ public:
     uint resident_groups(const Kernel& kernel) override {
         EXPECT_FALSE(late.contains(&kernel)) << kernel.path << " is not ready";
         const uint groups = device->resident_groups(kernel);
-        return groups == 0 && is_solver(kernel) ? 16 : groups;
+        return groups == 0 && is_solver(kernel) ? 64 : groups;
     }
 
 private:
@@ -159,7 +165,6 @@ TEST_P(LateKernels, solve_a_large_island_of_a_small_world_once_they_are_there) {
     LateRun late(GetParam(), bodies_of("wall"), false), plain(GetParam(), bodies_of("wall"), true);
     if (!late.device->loops_freely()) return; // it has no use for any
     late.device->late = {&engine::solve_persistent};
-    plain.device->late = {};
     for (int i = 0; i < 6; ++i) {
         if (i == 4) late.device->late.clear();
         late.device->ran.clear();
@@ -170,18 +175,50 @@ TEST_P(LateKernels, solve_a_large_island_of_a_small_world_once_they_are_there) {
         EXPECT_FALSE(late.awaits_kernels()) << "a work group does it, too";
         ASSERT_TRUE(late.run->motion() == plain.run->motion()) << "step " << i;
     }
+    EXPECT_TRUE(plain.device->ran.contains(&engine::solve_persistent));
     LateRun small(GetParam(), bodies_of("pool:boxes=300"), true);
     for (int i = 0; i < 100; ++i)
         small.run->step();
     EXPECT_EQ(small.device->ran, std::set<const Kernel*>{&engine::solve_islands});
 }
 
+TEST_P(LateKernels, are_begun_with_the_others_where_a_small_world_may_have_a_large_island) {
+    const auto begins_it = [&](const std::vector<BodyDefinition>& bodies) {
+        LateRun run(GetParam(), bodies, false);
+        run.run->step();
+        return run.device->prepared.contains(&engine::solve_persistent);
+    };
+    EXPECT_EQ(begins_it(bodies_of("wall")), LateRun(GetParam(), {}, true).device->loops_freely());
+    EXPECT_FALSE(begins_it(bodies_of("pool:boxes=20")));
+    EXPECT_FALSE(begins_it(with_restitution(bodies_of("wall"), 0.5f))) << "what bounces is solved by other kernels";
+}
+
+TEST_P(LateKernels, leave_a_small_world_to_groups_where_its_island_is_large_no_more) {
+    LateRun run(GetParam(), bodies_of("wall"), true);
+    if (!run.device->loops_freely()) return;
+    run.run->step();
+    run.run->step();
+    EXPECT_TRUE(run.device->ran.contains(&engine::solve_persistent));
+    // Gone, or far apart: bodies that nothing touches.
+    std::vector<engine::BodyPose>& poses = run.run->table.poses;
+    for (std::size_t i = 300; i < poses.size(); ++i)
+        poses[i].position.y += 100.0f * static_cast<float>(i);
+    run.run->simulation.write(BufferId::Poses, 0, std::span<const engine::BodyPose>(poses));
+    run.run->simulation.search_anew();
+    run.run->step(130);
+    run.device->ran.clear();
+    run.run->step();
+    EXPECT_EQ(run.device->ran, std::set<const Kernel*>{&engine::solve_islands});
+}
+
 TEST_P(LateKernels, are_told_how_large_islands_are) {
     std::vector<BodyDefinition> bodies = bodies_of("grid:stacks=3");
     bodies.push_back(box_at({0.0f, 50.0f, 0.0f})); // touches nothing
     LateRun stacks(GetParam(), bodies, true);
-    stacks.run->step();
-    EXPECT_EQ(stacks.run->counter(engine::k_counter_largest_island), 5u);
+    for (int i = 0; i < 12; ++i) {
+        stacks.run->step();
+        EXPECT_EQ(stacks.run->counter(engine::k_counter_largest_island), 5u) << "step " << i;
+    }
 }
 
 TEST_P(LateKernels, are_not_asked_for_where_the_caller_waits) {

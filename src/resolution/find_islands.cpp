@@ -15,6 +15,7 @@ namespace talus::engine {
 static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
     const uint body_count = state.counters[k_counter_graph_bodies];
     const uint pair_count = state.counters[k_counter_graph_pairs];
+    if (body_count == 0) return;
     std::vector<uint> roots(body_count);
     std::iota(roots.begin(), roots.end(), 0u);
 
@@ -69,8 +70,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
     }
     for (uint body = 0; body < body_count; ++body) // an island's lowest slot comes first, and has its number
         state.substeps[body] = state.islands[body] == k_none ? 0 : state.substeps[state.islands[body]];
-    const auto largest = std::ranges::max_element(manifold_counts);
-    state.counters[k_counter_largest_island] = largest == manifold_counts.end() ? 0 : *largest;
+    state.counters[k_counter_largest_island] = *std::ranges::max_element(manifold_counts);
 }
 
 const Kernel find_islands{"resolution/find_islands", find_islands_on_cpu, 1};
