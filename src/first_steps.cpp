@@ -36,7 +36,8 @@ void Simulation::begin_kernels(const Population& population) {
     const Placement last = placement_with_kernels();
     StepPlan quickest = plan_in_launches(population, IslandSolve::Groups);
     // How many groups it will have is found by a trial of the kernel itself.
-    if (quickest.may_be_persistent() && gpu->loops_freely()) quickest.persistent_groups = 1;
+    const auto groups_of = [&](const StepPlan& by) { return by.may_be_persistent() && gpu->loops_freely() ? 1u : 0u; };
+    quickest.persistent_groups = groups_of(quickest);
     // What a large world may need at any time.
     quickest.singles = quickest.has_groups();
     StepPlan first = waits_for_kernels ? quickest : plan_in_launches(population, IslandSolve::Launches);
@@ -57,7 +58,7 @@ void Simulation::begin_kernels(const Population& population) {
     note(Stage::Solve, quickest);
     if (may_have_large_island(quickest)) {
         quickest.in_groups = false;
-        quickest.persistent_groups = quickest.may_be_persistent() && gpu->loops_freely() ? 1 : 0;
+        quickest.persistent_groups = groups_of(quickest);
         if (quickest.persistent_groups > 0) note(Stage::Solve, quickest);
     }
     if (waits_for_kernels) needed_kernels = list.kernels;
@@ -66,7 +67,7 @@ void Simulation::begin_kernels(const Population& population) {
 
 void Simulation::choose_placement(const Population& population) {
     const bool is_first = !kernels_begun;
-    if (!gpu || (!is_first && !waits_on_cpu)) return;
+    if (!gpu || (!is_first && !waits_on_cpu())) return;
     kernels_begun = true;
     begin_kernels(population); // anew, as the caller may have changed what a step needs
     if (is_first && info.in_software) return;
@@ -75,7 +76,7 @@ void Simulation::choose_placement(const Population& population) {
         return;
     }
     if (!may_be_on_cpu(population)) {
-        if (waits_on_cpu) move_to_gpu();
+        if (waits_on_cpu()) move_to_gpu();
         return;
     }
     // Where the CPU's steps are quick the caller is kept for one kernel, and else for as long again as a step takes.
@@ -84,7 +85,7 @@ void Simulation::choose_placement(const Population& population) {
         is_first ? k_patience_with_kernels : std::chrono::duration_cast<milliseconds>(newest_time);
     const bool ready = gpu->make_ready(needed_kernels, patience);
     if (is_first && !ready) begin_on_cpu();
-    if (waits_on_cpu && ready) move_to_gpu();
+    if (waits_on_cpu() && ready) move_to_gpu();
 }
 
 bool Simulation::may_be_on_cpu(const Population& population) const {
@@ -106,12 +107,10 @@ void Simulation::begin_on_cpu() {
     }
     log(LogLevel::Info, "the GPU's kernels are still being compiled: until then the CPU makes the steps");
     placement = {cpu.get(), cpu.get()};
-    waits_on_cpu = true;
 }
 
 void Simulation::show_on_gpu() {
-    if (waits_on_cpu) {
-        reserve_contacts(*gpu, contact_demand(plan.pair_capacity, plan.manifold_capacity, body_capacity));
+    if (waits_on_cpu()) {
         hand_over_drawn(*cpu, *gpu, {enqueued_slots, newest_report.pairs});
     } else if (placement.hybrid()) {
         hand_over_places(*cpu, *gpu, enqueued_slots);
@@ -120,11 +119,9 @@ void Simulation::show_on_gpu() {
 
 void Simulation::move_to_gpu() {
     settle();
-    reserve_contacts(*gpu, contact_demand(plan.pair_capacity, plan.manifold_capacity, body_capacity));
     hand_over_state(*cpu, *gpu, {enqueued_slots, newest_report.pairs});
     kept_count = 0; // constraints stay, as the next step makes them anew
     placement = placement_with_kernels();
-    waits_on_cpu = false;
     plan.most_launched = k_none;
     pairs_last.begin_anew();
     list_lasts.begin_anew();

@@ -19,6 +19,28 @@ ReadRequest take(Device& to, BufferId buffer, std::size_t count) {
     return {buffer, count * stride, to.host_data(buffer)};
 }
 
+/// Either way.
+void copy(Device& from, Device& to, std::size_t count, std::initializer_list<BufferId> buffers) {
+    if (count == 0) return;
+    for (const BufferId buffer : buffers) {
+        if (from.host_data(buffer) != nullptr)
+            lend(from, to, buffer, count);
+        else
+            from.read(std::array{take(to, buffer, count)});
+    }
+}
+
+/// Of a buffer that has room only where it is in use.
+void copy_what_there_is(Device& from, Device& to, std::size_t count, BufferId buffer) {
+    const std::size_t stride = k_buffers[static_cast<std::size_t>(buffer)].stride;
+    copy(from, to, std::min({count, from.size(buffer) / stride, to.size(buffer) / stride}), {buffer});
+}
+
+void copy_old_contacts(Device& from, Device& to, uint pairs) {
+    copy(from, to, pairs, {BufferId::OldManifolds, BufferId::OldPointImpulses, BufferId::OldPointSeparations});
+    copy(from, to, std::size_t{4} * pairs, {BufferId::OldManifoldPoints});
+}
+
 uint counter(Device& device, uint word) {
     return reinterpret_cast<const uint*>(device.host_data(BufferId::Counters))[word];
 }
@@ -47,11 +69,7 @@ void hand_over_manifolds(Device& from, Device& to) {
 
 void hand_over_impulses(Device& from, Device& to) {
     if (counter(from, k_counter_did_not_fit) != 0) return; // the old ones are still wanted
-    const uint pair_count = counter(from, k_counter_old_pair_count);
-    lend(from, to, BufferId::OldManifolds, pair_count);
-    lend(from, to, BufferId::OldPointImpulses, pair_count);
-    lend(from, to, BufferId::OldPointSeparations, pair_count);
-    lend(from, to, BufferId::OldManifoldPoints, std::size_t{4} * pair_count);
+    copy_old_contacts(from, to, counter(from, k_counter_old_pair_count));
 }
 
 void hand_over_places(Device& from, Device& to, uint slots) {
@@ -59,29 +77,11 @@ void hand_over_places(Device& from, Device& to, uint slots) {
     lend(from, to, BufferId::Starts, slots);
 }
 
-namespace {
-
-void copy(Device& from, Device& to, std::size_t count, std::initializer_list<BufferId> buffers) {
-    for (const BufferId buffer : buffers) {
-        const std::size_t stride = k_buffers[static_cast<std::size_t>(buffer)].stride;
-        // Some have room only where they are in use.
-        const std::size_t there = std::min({count, from.size(buffer) / stride, to.size(buffer) / stride});
-        if (there == 0) continue;
-        if (from.host_data(buffer) != nullptr)
-            lend(from, to, buffer, there);
-        else
-            from.read(std::array{take(to, buffer, there)});
-    }
-}
-
-} // namespace
-
 void hand_over_drawn(Device& from, Device& to, StateCounts counts) {
     copy(from, to, k_counter_words, {BufferId::Counters});
     copy(from, to, counts.slots, {BufferId::Poses, BufferId::Starts, BufferId::Shapes, BufferId::Aabbs});
-    copy(from, to, counts.pairs,
-         {BufferId::Pairs, BufferId::OldManifolds, BufferId::OldPointSeparations, BufferId::OldPointImpulses});
-    copy(from, to, std::size_t{4} * counts.pairs, {BufferId::OldManifoldPoints});
+    copy(from, to, counts.pairs, {BufferId::Pairs});
+    copy_old_contacts(from, to, counts.pairs);
 }
 
 void hand_over_state(Device& from, Device& to, StateCounts counts) {
@@ -89,8 +89,9 @@ void hand_over_state(Device& from, Device& to, StateCounts counts) {
                   "another buffer survives the step");
     hand_over_drawn(from, to, counts);
     copy(from, to, counts.slots,
-         {BufferId::Velocities, BufferId::Properties, BufferId::Loads, BufferId::Rests, BufferId::OrientedBoxes});
-    copy(from, to, counts.pairs, {BufferId::OldContactStates});
+         {BufferId::Velocities, BufferId::Properties, BufferId::Loads, BufferId::OrientedBoxes});
+    copy_what_there_is(from, to, counts.slots, BufferId::Rests);
+    copy_what_there_is(from, to, counts.pairs, BufferId::OldContactStates);
 }
 
 } // namespace talus::engine

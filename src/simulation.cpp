@@ -115,11 +115,6 @@ uint with_headroom(uint demand, uint capacity, uint share = 4) {
     return demand + demand / (!comes_at_once ? share : demand < k_large_demand ? 16 : 32);
 }
 
-/// Slots of PairTable.
-uint table_size_for(uint pairs) {
-    return std::bit_ceil(2 * pairs);
-}
-
 } // namespace
 
 void Trust::note(bool needed) {
@@ -232,26 +227,20 @@ void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
     const uint manifold_capacity = std::max(manifolds, plan.manifold_capacity);
     for (const BufferId buffer : k_pair_buffers)
         grow_everywhere(buffer, pair_capacity);
-    const ContactDemand demand = contact_demand(pair_capacity, manifold_capacity, std::max(bodies, body_capacity));
-    reserve_contacts(*placement.resolution, demand);
-    if (placement.hybrid()) reserve_contacts(*placement.detection, demand);
-    plan.pair_capacity = pair_capacity; // only now: a buffer may have no room
-    plan.manifold_capacity = manifold_capacity;
-    plan.table_size = table_size_for(pair_capacity);
-    if (watches_contacts()) reserve_reports();
-}
-
-ContactDemand Simulation::contact_demand(uint pairs, uint manifolds, uint bodies) const {
-    const uint partners = k_kept_partners * bodies; // which the search keeps in PairTable on a GPU
-    return {pairs, manifolds, std::max(table_size_for(pairs), partners), watches_contacts()};
-}
-
-void Simulation::reserve_contacts(Device& device, ContactDemand demand) const {
-    if (info.kind == DeviceKind::Hybrid && &device == gpu.get()) { // nothing is solved, and no watch told, on this one
+    const uint table_size = std::bit_ceil(2 * pair_capacity);
+    const uint partners =
+        k_kept_partners * std::max(bodies, body_capacity); // the search keeps them in PairTable on a GPU
+    ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, partners), watches_contacts()};
+    if (cpu) cpu->reserve_contacts(demand);
+    if (info.kind == DeviceKind::Hybrid) { // nothing is solved, and no watch told, on the other one
         demand.manifolds = 0;
         demand.keeps_old = false;
     }
-    device.reserve_contacts(demand);
+    if (gpu) gpu->reserve_contacts(demand);
+    plan.pair_capacity = pair_capacity; // only now: a buffer may have no room
+    plan.manifold_capacity = manifold_capacity;
+    plan.table_size = table_size;
+    if (watches_contacts()) reserve_reports();
 }
 
 void Simulation::reserve_reports() {
@@ -524,7 +513,7 @@ void Simulation::finish_oldest() {
     graph_lasts.note(counters[k_counter_graph_was_due] != 0);
     newest_device = &device;
     newest_ticket = tickets.resolution;
-    if (info.kind == DeviceKind::Gpu && !waits_on_cpu) cpu.reset(); // that may have made the step before
+    if (info.kind == DeviceKind::Gpu && !waits_on_cpu()) cpu.reset(); // that may have made the step before
     newest_has_poses = done.with_poses;
     newest_report.dispatches = static_cast<std::uint32_t>(done.launches);
     newest_report.broad_phase = done.broad_phase;
@@ -532,7 +521,7 @@ void Simulation::finish_oldest() {
 
     StepReport& report = newest_report;
     report.step = finished_count;
-    report.device = waits_on_cpu ? DeviceKind::Cpu : info.kind;
+    report.device = waits_on_cpu() ? DeviceKind::Cpu : info.kind;
     report.pairs = counters[k_counter_pair_count];
     solved_count = counters[k_counter_manifold_count];
     kept_count = solved_count;

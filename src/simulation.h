@@ -164,10 +164,9 @@ private:
     bool may_be_on_cpu(const Population&) const;
     void begin_on_cpu();
     void move_to_gpu();
+    /// The CPU makes steps in the GPU's place.
+    bool waits_on_cpu() const { return gpu && placement.detection != gpu.get(); }
 
-    ContactDemand contact_demand(uint pairs, uint manifolds, uint bodies) const;
-    /// As the device needs it for its part of a step.
-    void reserve_contacts(Device&, ContactDemand) const;
     void grow_everywhere(BufferId, std::size_t elements);
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
@@ -201,8 +200,7 @@ private:
     bool profiles = false;          ///< WorldOptions::profile
     bool waits_for_kernels = false; ///< WorldOptions::wait_for_kernels
     bool kernels_begun = false;
-    bool waits_on_cpu = false;                         ///< until the GPU has these:
-    std::vector<const Kernel*> needed_kernels;         ///< without which it makes no step
+    std::vector<const Kernel*> needed_kernels;         ///< without which the GPU makes no step
     std::chrono::steady_clock::duration newest_time{}; ///< of the newest step, where the CPU made it
     Transfers transferred;
 

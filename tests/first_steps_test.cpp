@@ -19,6 +19,7 @@
 #include "step_results.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
+#include "tests/engine_run.h"
 #include "tests/stand_in_device.h"
 
 namespace talus::tests {
@@ -57,12 +58,10 @@ public:
     }
 };
 
-/// A simulation and the host's table of its bodies, without the checks of a world.
-struct TableRun {
+/// A run to which bodies come, and whose bodies change, as those of a world.
+struct TableRun : EngineRun {
     TableRun(const WorldOptions& options, engine::Devices devices, const Settings& wanted)
-        : settings(wanted), simulation(options, std::move(devices)) {
-        simulation.set_settings(settings);
-    }
+        : EngineRun(options, std::move(devices), {}, wanted) {}
 
     void add(const std::vector<BodyDefinition>& bodies) {
         for (const BodyDefinition& body : bodies)
@@ -77,16 +76,6 @@ struct TableRun {
         table.forget_loads();
         table.recycle();
         simulation.settle();
-    }
-
-    /// Poses and velocities.
-    const std::vector<float>& motion() {
-        const std::size_t count = table.slot_count();
-        numbers.resize(16 * count);
-        simulation.read_state(
-            std::array{ReadRequest{BufferId::Poses, count * sizeof(engine::BodyPose), numbers.data()},
-                       ReadRequest{BufferId::Velocities, count * sizeof(engine::BodyVelocity), &numbers[8 * count]}});
-        return numbers;
     }
 
     engine::SavedState save() {
@@ -104,11 +93,6 @@ struct TableRun {
     }
 
     DeviceKind made_by() const { return simulation.report().device; }
-
-    Settings settings;
-    engine::BodyTable table;
-    engine::Simulation simulation;
-    std::vector<float> numbers;
 };
 
 /// Of a world on a GPU, or a hybrid one, that does not wait for its kernels.

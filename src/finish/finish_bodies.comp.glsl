@@ -45,11 +45,9 @@ void main()
     BodyPose moved = apply_delta(pose, unpack(deltas[body]));
     bool may_rest = parameters.rest_steps > 0u && is_movable(unpack(shapes[body]));
     if (may_rest) {
-        BodyRest rest = rest_so_far(pose, unpack(rests[body]));
-        bool ends = ends_rest(moved, unpack(deltas[body]), rest, unpack(shapes[body]), parameters);
-        moved.flags = ends ? wake_flags(moved.flags) : count_rest(moved.flags, parameters);
-        if (measures_anew(moved.flags, parameters)) rest = begin_rest(moved);
-        rests[body] = pack(rest);
+        NextRest next = next_rest(pose, moved, unpack(deltas[body]), unpack(rests[body]), unpack(shapes[body]), parameters);
+        moved.flags = next.flags;
+        rests[body] = pack(next.rest);
     } else {
         moved.flags = wake_flags(moved.flags);
     }

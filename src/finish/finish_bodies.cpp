@@ -23,11 +23,9 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
         BodyPose moved = apply_delta(pose, state.deltas[body]);
         const bool may_rest = p.rest_steps > 0 && is_movable(state.shapes[body]);
         if (may_rest) {
-            BodyRest rest = rest_so_far(pose, state.rests[body]);
-            const bool ends = ends_rest(moved, state.deltas[body], rest, state.shapes[body], p);
-            moved.flags = ends ? wake_flags(moved.flags) : count_rest(moved.flags, p);
-            if (measures_anew(moved.flags, p)) rest = begin_rest(moved);
-            state.rests[body] = rest;
+            const NextRest next = next_rest(pose, moved, state.deltas[body], state.rests[body], state.shapes[body], p);
+            moved.flags = next.flags;
+            state.rests[body] = next.rest;
         } else {
             moved.flags = wake_flags(moved.flags);
         }

@@ -70,8 +70,10 @@ void main()
     uint me = gl_LocalInvocationID.x;
     if (counters[k_counter_graph_bodies] == 0u) return;
     uint pair_count = counters[k_counter_graph_pairs];
-    if (me == 0u) first_mover = k_none;
-    if (me == 0u) largest = 0u;
+    if (me == 0u) {
+        first_mover = k_none;
+        largest = 0u;
+    }
     barrier();
     for (uint body = me; body < parameters.body_count; body += gl_WorkGroupSize.x) {
         roots[body] = is_movable(shapes[body]) ? body : k_none;

@@ -73,3 +73,20 @@ inline bool measures_anew(uint flags, Parameters p)
     uint steps = flags >> k_rest_shift;
     return steps == 0u || steps == p.rest_steps;
 }
+
+// A body's rest after a step.
+struct NextRest {
+    BodyRest rest; // from where its way is measured on
+    uint flags;    // of its pose, with how long it has rested
+};
+
+// `moved`: where the step has brought it.
+inline NextRest next_rest(BodyPose pose, BodyPose moved, BodyDelta delta, BodyRest kept, BodyShape shape, Parameters p)
+{
+    NextRest next;
+    next.rest = rest_so_far(pose, kept);
+    next.flags = wake_flags(moved.flags);
+    if (!ends_rest(moved, delta, next.rest, shape, p)) next.flags = count_rest(moved.flags, p);
+    if (measures_anew(next.flags, p)) next.rest = begin_rest(moved);
+    return next;
+}
