@@ -67,13 +67,15 @@ void Simulation::restore(const SavedState& saved) {
     settle();
     const auto pair_count = static_cast<uint>(saved.manifolds.size());
     reserve_bodies(saved.table.slot_count());
-    if (!saved.rests.empty()) grow_everywhere(BufferId::Rests, body_capacity);
+    if (!saved.rests.empty()) reserve_rests(body_capacity);
 
     std::vector<Pair> pairs;
     std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);
     std::vector<ContactConstraint> constraints; // only what read_contacts reads: the next step makes them anew
+    const BodyTable& table = saved.table;
     const auto sleeps = [&](const Manifold& manifold) {
-        return is_asleep(saved.table.poses[manifold.body_a]) || is_asleep(saved.table.poses[manifold.body_b]);
+        const uint a = manifold.body_a, b = manifold.body_b;
+        return sleeps_through(table.poses[a], table.shapes[a], table.poses[b], table.shapes[b]);
     };
     std::size_t next = 0;
     for (uint i = 0; i < pair_count; ++i) {

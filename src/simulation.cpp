@@ -172,7 +172,7 @@ Simulation::Simulation(const WorldOptions& options, Devices devices)
     grow_everywhere(BufferId::TreeGrids, 1);
     grow_everywhere(BufferId::HubChanges, 1);
     grow_everywhere(BufferId::Arrivals, k_arrival_words);
-    grow_everywhere(BufferId::Rests, 1);
+    reserve_rests(1);
     grow_everywhere(BufferId::ColourOffsets, k_colour_offsets);
     grow_everywhere(BufferId::Strays, k_most_strays);
     grow_everywhere(BufferId::KnownPairs, k_most_stray_pairs);
@@ -200,6 +200,11 @@ void Simulation::grow_everywhere(BufferId buffer, std::size_t elements) {
         if (device != nullptr) device->grow(buffer, bytes);
 }
 
+void Simulation::reserve_rests(uint bodies) {
+    grow_everywhere(BufferId::Rests, bodies);
+    grow_everywhere(BufferId::Balances, std::size_t{k_balance_words} * bodies);
+}
+
 void Simulation::reserve_bodies(uint count) {
     if (count <= body_capacity) return;
     settle(); // contacts move, and where they lie may be another half once a step on its way is done again
@@ -209,7 +214,7 @@ void Simulation::reserve_bodies(uint count) {
     grow_everywhere(BufferId::SpreadSums, capacity / k_spread_group + 1);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
     grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words} * capacity);
-    if (settings.sleeping) grow_everywhere(BufferId::Rests, capacity);
+    if (settings.sleeping) reserve_rests(capacity);
     grow_contacts(0, 0, capacity);
     body_capacity = capacity; // only now: a buffer may have no room
 }
@@ -282,7 +287,7 @@ void Simulation::write_behind_steps(BufferId buffer, std::size_t offset, std::sp
 }
 
 void Simulation::set_settings(const Settings& wanted) {
-    if (wanted.sleeping) grow_everywhere(BufferId::Rests, body_capacity);
+    if (wanted.sleeping) reserve_rests(body_capacity);
     if (wanted.broad_phase != settings.broad_phase) search_anew();
     begin_graph_anew();
     settings = wanted;

@@ -168,6 +168,8 @@ private:
     bool waits_on_cpu() const { return gpu && placement.detection != gpu.get(); }
 
     void grow_everywhere(BufferId, std::size_t elements);
+    /// What only worlds need in which bodies may sleep.
+    void reserve_rests(uint bodies);
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
     void grow_contacts(uint pairs, uint manifolds, uint bodies = 0);

@@ -79,6 +79,8 @@ struct StepPlan {
     }
     /// Bodies from which on an island is multirate, where a hub counts as 1,025; k_none: none is.
     uint multirate_from() const { return may_be_multirate() ? least_multirate : k_none; }
+    /// What rests in a large island may sleep while other parts of it move.
+    bool sleeps_in_parts() const { return sleeping && !small; }
     bool has_groups() const { return in_groups && !small; }
     bool needs_launches() const { return !(in_groups && small); }
     /// One persistent launch may make all passes, if the device has groups for it. All others wait there for the one

@@ -143,6 +143,40 @@ TEST_P(MultirateIslands, have_the_same_bits_on_every_device_and_path) {
     }
 }
 
+TEST_P(MultirateIslands, sleep_in_parts_and_what_is_awake_keeps_its_sub_steps) {
+    Settings settings = eight_at_most();
+    settings.sleeping = true;
+    settings.sleep_time = 0.05f;
+    std::vector<BodyDefinition> bodies = long_wall();
+    bodies[0] = box_at({95.0f, -1.0f, 0.0f}, {200.0f, 2.0f, 20.0f}, BodyKind::Static); // below all of it
+    bodies.push_back(sphere_at({40.0f, 6.5f, 0.0f}));
+    bodies.back().velocity.linear = {1.0f, 0.0f, 0.0f};
+    WorldOptions serial = options_on(DeviceKind::Cpu);
+    serial.threads = 1;
+    EngineRun one(options_on(GetParam()), bodies, settings), many(options_on(GetParam()), bodies, settings);
+    EngineRun expected(serial, bodies, settings);
+    for (EngineRun* each : {&one, &many, &expected}) {
+        each->simulation.reserve_pairs(8192);
+        each->least_multirate = 1025;
+        each->step(12);
+        ask_for_different_substeps(*each);
+    }
+    for (const uint groups : k_numbers_of_groups) {
+        one.step_persistently(groups % 2 == 1, groups);
+        many.step_in_many_launches();
+        expected.step_in_many_launches();
+        ASSERT_TRUE(one.motion() == many.motion()) << groups << " groups";
+        ASSERT_TRUE(one.motion() == expected.motion()) << groups << " groups";
+    }
+    const uint sleeping = one.counter(engine::k_counter_sleeping_bodies);
+    EXPECT_GT(sleeping, 500u);
+    EXPECT_LT(sleeping, bodies.size() - 3);
+    EXPECT_GE(one.counter(engine::k_counter_multirate_islands), 1u) << "of three bodies or so";
+    const Contacts contacts = count_contacts(one);
+    EXPECT_GT(contacts.slow, 0u);
+    EXPECT_GT(contacts.fast, 0u);
+}
+
 TALUS_ON_EVERY_DEVICE(MultirateIslands);
 
 TEST(Multirate, a_tall_column_has_one_number_throughout) {

@@ -445,6 +445,141 @@ std::uint64_t hash_of_story(World& world, bool large, bool kinematic) {
     return world.state_hash();
 }
 
+// ---- islands that are too large for a work group: parts of them sleep ----
+
+constexpr int k_side = 33; // boxes; 1,089 touch each other
+
+/// Boxes side by side on the ground, a few millimetres apart, and a few on the first ones.
+std::vector<BodyId> add_pavement(World& world) {
+    std::vector<BodyDefinition> bodies;
+    for (int i = 0; i < k_side * k_side; ++i)
+        bodies.push_back(
+            box_at({1.005f * static_cast<float>(i % k_side), 0.5f, 1.005f * static_cast<float>(i / k_side)}));
+    return world.add(bodies);
+}
+
+Settings with_quick_sleep() {
+    Settings settings = with_sleeping();
+    settings.sleep_time = 0.1f;
+    return settings;
+}
+
+TEST_P(Sleep, a_part_of_a_large_island_sleeps_while_others_move) {
+    World world = make_world(with_quick_sleep()), awake = make_world();
+    std::vector<BodyId> boxes;
+    BodyId ball;
+    BodyDefinition definition = sphere_at({2.3f, 1.5f, 2.0f});
+    definition.velocity.linear = {2.0f, 0.0f, 0.0f};
+    for (World* each : {&world, &awake}) {
+        each->add(ground());
+        boxes = add_pavement(*each);
+        each->step(40);
+        if (each == &world) {
+            EXPECT_EQ(world.report().sleeping_bodies, boxes.size());
+        }
+        ball = each->add(definition);
+    }
+    std::uint32_t fewest = ~0u;
+    for (int i = 0; i < 60; ++i) {
+        world.step();
+        fewest = std::min(fewest, world.report().sleeping_bodies);
+        EXPECT_FALSE(world.is_asleep(ball)) << i;
+        EXPECT_TRUE(world.is_asleep(boxes.back())) << "the far corner, " << i;
+        const Vec3 at = world.pose(ball).position;
+        const int x = std::clamp(static_cast<int>(std::lround(at.x / 1.005f)), 0, k_side - 1);
+        EXPECT_FALSE(world.is_asleep(boxes[static_cast<std::size_t>(2 * k_side + x)])) << "the one below, " << i;
+    }
+    EXPECT_GT(fewest, boxes.size() - 100);
+    EXPECT_LT(fewest, boxes.size());
+    EXPECT_TRUE(world.is_asleep(boxes[2 * k_side + 1])) << "the ball has gone on";
+    awake.step(60);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        EXPECT_LT(length(world.pose(boxes[i]).position - awake.pose(boxes[i]).position), 0.001f) << i;
+    EXPECT_LT(length(world.pose(ball).position - awake.pose(ball).position), 0.1f) << "of two metres, over gaps";
+}
+
+TEST_P(Sleep, a_load_that_changes_wakes_what_carries_it_through_others) {
+    World world = make_world(with_quick_sleep());
+    world.add(ground());
+    const std::vector<BodyId> boxes = add_pavement(world);
+    std::vector<BodyId> tower{boxes[5 * k_side + 5]};
+    for (int i = 1; i < 6; ++i)
+        tower.push_back(world.add(box_at(world.pose(tower[0]).position + Vec3{0.0f, static_cast<float>(i), 0.0f})));
+    const auto all = static_cast<std::uint32_t>(boxes.size() + tower.size() - 1);
+    step_until_asleep(world, all);
+    const auto press = [&](float weights) {
+        world.add_force(tower[5], {0.0f, -weights * k_box_weight, 0.0f});
+        world.step();
+    };
+    for (int i = 0; i < 20; ++i) {
+        press(0.02f); // wakes the topmost and the one that it touches, which touches a third
+        EXPECT_TRUE(world.is_asleep(tower[2])) << "a fiftieth of a weight is nothing to it, step " << i;
+    }
+    step_until_asleep(world, all);
+    std::vector<bool> was_awake(tower.size());
+    for (int i = 0; i < 20; ++i) {
+        press(3.0f);
+        for (std::size_t k = 0; k < tower.size(); ++k)
+            if (!world.is_asleep(tower[k])) was_awake[k] = true;
+    }
+    EXPECT_EQ(was_awake, std::vector<bool>(tower.size(), true)) << "down to the ground";
+    EXPECT_TRUE(world.is_asleep(boxes.back()));
+    float impulse = 0.0f; // on the ground
+    for (const Contact& contact : world.contacts())
+        for (const ContactPoint& point : contact.points)
+            if (contact.b == tower[0] && world.kind(contact.a) == BodyKind::Static) impulse += point.normal_impulse;
+    const float load = 9.0f * k_box_weight / 60.0f;
+    EXPECT_NEAR(impulse, load, 0.125f * load) << "what sleepers carry may differ by an eighth";
+}
+
+TEST_P(Sleep, what_loses_its_support_in_a_large_island_falls) {
+    World world = make_world(with_quick_sleep());
+    world.add(ground());
+    const std::vector<BodyId> boxes = add_pavement(world);
+    const BodyId first = boxes[5 * k_side + 5], second = boxes[5 * k_side + 6];
+    const Vec3 between = (world.pose(first).position + world.pose(second).position) * 0.5f;
+    const BodyId plank = world.add(box_at(between + Vec3{0.0f, 0.75f, 0.0f}, {3.0f, 0.5f, 1.0f}));
+    const BodyId on_top = world.add(box_at(between + Vec3{0.0f, 1.5f, 0.0f}));
+    step_until_asleep(world, static_cast<std::uint32_t>(boxes.size()) + 2);
+    world.set_pose(first, {{-20.0f, 0.5f, -20.0f}, {}});
+    world.set_pose(second, {{-24.0f, 0.5f, -20.0f}, {}});
+    world.set_pose(boxes[5 * k_side + 4], {{-28.0f, 0.5f, -20.0f}, {}});
+    world.set_pose(boxes[5 * k_side + 7], {{-32.0f, 0.5f, -20.0f}, {}});
+    world.step(60);
+    EXPECT_LT(world.pose(plank).position.y, 0.5f);
+    EXPECT_LT(world.pose(on_top).position.y, 1.1f);
+    EXPECT_TRUE(world.is_asleep(boxes.back()));
+}
+
+TEST_P(Sleep, parts_of_an_island_sleep_alike_on_every_device_and_after_a_snapshot) {
+    const auto play = [](World& world) {
+        world.add(ground());
+        add_pavement(world);
+        world.step(30);
+        BodyDefinition ball = sphere_at({8.3f, 2.5f, 8.0f});
+        ball.velocity.linear = {3.0f, 0.0f, 1.0f};
+        world.add(ball);
+        world.add(box_at({3.0f, 2.0f, 20.0f}));
+        world.step(30);
+    };
+    WorldOptions options = options_on(DeviceKind::Cpu);
+    options.threads = 1;
+    World world = make_world(with_quick_sleep()), reference(with_quick_sleep(), options);
+    play(world);
+    play(reference);
+    EXPECT_EQ(world.state_hash(), reference.state_hash());
+    EXPECT_EQ(world.report().sleeping_bodies, reference.report().sleeping_bodies);
+    EXPECT_GT(world.report().sleeping_bodies, 900u);
+    EXPECT_LT(world.report().sleeping_bodies, 1089u);
+    World restored = make_world();
+    restored.restore(world.snapshot());
+    EXPECT_EQ(restored.contacts().size(), world.contacts().size());
+    for (World* each : {&world, &restored, &reference})
+        each->step(30);
+    EXPECT_EQ(world.state_hash(), reference.state_hash());
+    EXPECT_EQ(restored.state_hash(), reference.state_hash());
+}
+
 TEST_P(Sleep, is_the_same_on_every_device) {
     for (const bool large : {false, true}) {
         for (const bool kinematic : {false, true}) {

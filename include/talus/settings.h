@@ -67,7 +67,8 @@ struct Settings {
                                     ///< than 1,000 in a world of up to 1,024 body slots, more than 32 in a larger one
     float sleep_speed = 0.01f;      ///< m/s; a body rests where it gets nowhere faster on average, though it may jitter
     float sleep_time = 0.5f;        ///< s; an island sleeps once all its bodies have rested for so long
-    bool sleeping = false; ///< whether islands at rest sleep until something touches them: they cost next to nothing
+    bool sleeping = false; ///< whether islands at rest, and parts of very large ones, sleep until something touches
+                           ///< them: they cost next to nothing
 
     /// Whether every setting is the same.
     bool operator==(const Settings&) const = default;

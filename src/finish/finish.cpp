@@ -15,7 +15,8 @@ static void report_events(Device& device, const StepPlan& plan) {
 
 void finish(Device& device, const StepPlan& plan) {
     if (plan.watch != ContactWatch::None) report_events(device, plan);
-    device.run({.kernel = finish_bodies, .slot = k_dispatch_bodies});
+    if (plan.sleeps_in_parts()) device.run({.kernel = weigh_sleepers, .slot = k_dispatch_reports});
+    device.run({.kernel = finish_bodies, .slot = k_dispatch_bodies, .args = {plan.sleeps_in_parts()}});
     swap_manifolds(device);
 }
 

@@ -13,6 +13,6 @@ void finish(Device&, const StepPlan&);
 /// Manifolds, their points and the states of contacts change places with the old ones.
 void swap_manifolds(Device&);
 
-extern const Kernel gather_contact_impulses, report_contacts, report_contact_ends, finish_bodies;
+extern const Kernel gather_contact_impulses, report_contacts, report_contact_ends, weigh_sleepers, finish_bodies;
 
 } // namespace talus::engine

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its new pose, for how long it has rested, and no load for the next step. A body that would
-// become non-finite stays where it was and is frozen; one that sleeps is left alone. Where each was is kept for whoever asks
-// for the step's contacts. The first invocation also makes this step's pairs the last step's.
-// Reads: Shapes, Deltas, Counters.
+// become non-finite stays where it was and is frozen; one that sleeps is left alone, and wakes with the next step where what presses
+// on it has changed. Where each was is kept for whoever asks for the step's contacts. The first invocation also makes this step's pairs
+// the last step's.
+// args.x: 1 where an island may sleep in parts.
+// Reads: Shapes, Deltas, Counters; where an island may sleep in parts IslandFill, Balances, Properties.
 // Writes: Starts; Poses, Loads, Rests, Counters; Velocities where a body is frozen or too fast.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit, and does nothing after one that went wrong.
@@ -10,6 +12,9 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/sleep.shared.glsl"
 #include "resolution/body.shared.glsl"
+#include "resolution/contact_frame.shared.glsl"
+#include "resolution/island.shared.glsl"
+#include "resolution/balance.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -21,6 +26,22 @@ layout(std430) buffer Poses { BodyPoseCells poses[]; };
 layout(std430) buffer Loads { BodyLoadCells loads[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) buffer Counters { uint counters[]; };
+layout(std430) readonly buffer IslandFill { uint island_fill[]; };
+layout(std430) readonly buffer Balances { uint balances[]; };
+layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
+
+float balance_of(uint body, uint word) { return speed_of_balance(balances[k_balance_words * body + word]); }
+
+vec3 balance3_of(uint body, uint word)
+{
+    return vec3(balance_of(body, word), balance_of(body, word + 1u), balance_of(body, word + 2u));
+}
+
+bool is_in_balance(uint body)
+{
+    return is_balanced(balance3_of(body, k_balance_impulse), balance3_of(body, k_balance_moment),
+                       balance_of(body, k_balance_load), unpack(properties[body]).gravity_scale, parameters);
+}
 
 void main()
 {
@@ -33,7 +54,11 @@ void main()
     if (body >= parameters.body_count) return;
     BodyPose pose = unpack(poses[body]);
     starts[body] = pack(start_at(pose));
-    if (is_asleep(pose)) return;
+    if (is_asleep(pose)) {
+        if (args.x == 1u && (island_fill[body] & k_pressed) != 0u && !is_in_balance(body))
+            rests[body] = pack(with_calm(unpack(rests[body]), 0u));
+        return;
+    }
     bool moves = is_mover(unpack(shapes[body]));
     bool disturbed = (pose.flags & k_body_disturbed) != 0u;
     if (moves || disturbed) loads[body] = pack(no_load());
@@ -45,7 +70,9 @@ void main()
     BodyPose moved = apply_delta(pose, unpack(deltas[body]));
     bool may_rest = parameters.rest_steps > 0u && is_movable(unpack(shapes[body]));
     if (may_rest) {
-        NextRest next = next_rest(pose, moved, unpack(deltas[body]), unpack(rests[body]), unpack(shapes[body]), parameters);
+        bool touched = args.x == 1u && (island_fill[body] & k_touched) != 0u;
+        NextRest next =
+            next_rest(pose, moved, unpack(deltas[body]), unpack(rests[body]), touched, unpack(shapes[body]), parameters);
         moved.flags = next.flags;
         rests[body] = pack(next.rest);
     } else {

@@ -8,14 +8,31 @@
 
 namespace talus::engine {
 
-static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
+static bool is_in_balance(const CpuState& state, uint body) {
+    const uint* const words = &state.balances[std::size_t{k_balance_words} * body];
+    const auto at = [&](uint word) {
+        return vec3(speed_of_balance(words[word]), speed_of_balance(words[word + 1]),
+                    speed_of_balance(words[word + 2]));
+    };
+    return is_balanced(at(k_balance_impulse), at(k_balance_moment), speed_of_balance(words[k_balance_load]),
+                       state.properties[body].gravity_scale, state.parameters);
+}
+
+static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
     const Parameters& p = state.parameters;
     state.counters[k_counter_old_pair_count] = state.counters[k_counter_pair_count];
     state.counters[k_counter_pairs_changed] = 0;
+    const auto is_noted = [&](uint body, uint what) {
+        return launch.args[0] == 1 && (state.island_fill[body] & what) != 0;
+    };
     state.parallel(p.body_count, [&](uint body) {
         BodyPose& pose = state.poses[body];
         state.starts[body] = start_at(pose);
-        if (is_asleep(pose)) return;
+        if (is_asleep(pose)) {
+            if (is_noted(body, k_pressed) && !is_in_balance(state, body))
+                state.rests[body] = with_calm(state.rests[body], 0);
+            return;
+        }
         const bool moves = is_mover(state.shapes[body]);
         if (moves || (pose.flags & k_body_disturbed) != 0) state.loads[body] = no_load();
         pose.flags &= ~k_body_disturbed;
@@ -23,7 +40,8 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch&) {
         BodyPose moved = apply_delta(pose, state.deltas[body]);
         const bool may_rest = p.rest_steps > 0 && is_movable(state.shapes[body]);
         if (may_rest) {
-            const NextRest next = next_rest(pose, moved, state.deltas[body], state.rests[body], state.shapes[body], p);
+            const NextRest next = next_rest(pose, moved, state.deltas[body], state.rests[body],
+                                            is_noted(body, k_touched), state.shapes[body], p);
             moved.flags = next.flags;
             state.rests[body] = next.rest;
         } else {

@@ -21,6 +21,7 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer PairTable { uint pair_table[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer OldManifolds { ManifoldCells old_manifolds[]; };
+layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 layout(std430) readonly buffer PointSeparations { SeparationsCells point_separations[]; };
@@ -43,8 +44,9 @@ void main()
     uint old_index = find_old_manifold(manifold.body_a, manifold.body_b);
     bool touched = old_index != k_none && old_contact_states[old_index] == k_contact_touches;
 
-    bool asleep = is_active(manifold) &&
-                  (is_asleep(unpack(poses[manifold.body_a])) || is_asleep(unpack(poses[manifold.body_b])));
+    bool asleep =
+        is_active(manifold) && sleeps_through(unpack(poses[manifold.body_a]), unpack(shapes[manifold.body_a]),
+                                              unpack(poses[manifold.body_b]), unpack(shapes[manifold.body_b]));
     vec4 impulse = vec4(0.0);
     if (asleep)
         impulse = unpack(point_impulses[pair]).normal;

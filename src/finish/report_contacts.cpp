@@ -16,7 +16,8 @@ static void report_contacts_on_cpu(CpuState& state, const Launch& launch) {
         const bool touched = old_index != k_none && state.old_contact_states[old_index] == k_contact_touches;
 
         const bool asleep =
-            is_active(manifold) && (is_asleep(state.poses[manifold.body_a]) || is_asleep(state.poses[manifold.body_b]));
+            is_active(manifold) && sleeps_through(state.poses[manifold.body_a], state.shapes[manifold.body_a],
+                                                  state.poses[manifold.body_b], state.shapes[manifold.body_b]);
         vec4 impulse(0.0f);
         if (asleep)
             impulse = state.point_impulses[pair].normal;

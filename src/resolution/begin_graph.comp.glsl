@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the last step's constraint graph is not this one's: the first invocation sets the counts to nothing, and plans the launches
 // that make it. Each is a body slot: no colour in use, no rank seen, no hub; and an island of its own, of the least sub-steps, if
-// contacts can push it. What is restless is awake. Where the graph lasts these launches, and those that follow, do nothing.
+// contacts can push it. Where bodies may sleep, who is restless. Where the graph lasts these launches, and those that follow, do nothing.
 // args.x: 1 where islands are measured.
 // Reads: Shapes, Poses, Velocities.
 // Writes: BodyColours, Islands, Substeps, IslandSizes, IslandStarts, IslandFill; Counters, Dispatches.
@@ -64,9 +64,9 @@ void begin_island(uint body)
     substeps[body] = parameters.least_substeps;
     island_sizes[body] = 0u;
     island_starts[body] = 0u;
-    bool restless = parameters.rest_steps == 0u ||
+    bool restless = parameters.rest_steps > 0u &&
                     is_restless(unpack(poses[body]), unpack(velocities[body]), shape, parameters);
-    island_fill[body] = restless ? k_awake : 0u;
+    island_fill[body] = restless ? k_restless : 0u;
 }
 
 void main()

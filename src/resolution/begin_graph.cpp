@@ -40,8 +40,8 @@ static void begin_graph_on_cpu(CpuState& state, const Launch& launch) {
         state.islands[body] = is_movable(shape) ? body : k_none;
         state.substeps[body] = p.least_substeps;
         state.island_sizes[body] = state.island_starts[body] = 0;
-        const bool restless = is_restless(state.poses[body], state.velocities[body], shape, p);
-        state.island_fill[body] = restless ? k_awake : 0;
+        const bool restless = p.rest_steps > 0 && is_restless(state.poses[body], state.velocities[body], shape, p);
+        state.island_fill[body] = restless ? k_restless : 0;
     });
 }
 

@@ -37,19 +37,11 @@ inline BodyInertia world_inertia(vec4 rotation, vec3 inverse_inertia, uint trait
     return m;
 }
 
-// Of a body that sleeps: it has no sub-steps.
-inline BodyInertia no_inertia()
+// Of a body that sleeps. Contacts give way to what presses on them as if it were awake, so that nothing changes as it falls asleep;
+// only it stays where it is, and has no sub-steps.
+inline BodyInertia inertia_asleep(vec4 rotation, vec3 inverse_inertia, uint traits)
 {
-    BodyInertia m;
-    m.xx = 0.0f;
-    m.yy = 0.0f;
-    m.zz = 0.0f;
-    m.xy = 0.0f;
-    m.xz = 0.0f;
-    m.yz = 0.0f;
-    m.traits = 0u;
-    m.substeps = 0u;
-    return m;
+    return world_inertia(rotation, inverse_inertia, (traits & ~k_trait_moves) | k_trait_asleep, 0u);
 }
 
 inline vec3 multiply_inertia(BodyInertia m, vec3 v)

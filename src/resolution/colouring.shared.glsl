@@ -136,10 +136,10 @@ inline bool is_last_colour(uint used_low, uint used_high, uint colour)
     return count_earlier(used_low, used_high, colour) + 1u == count_earlier(used_low, used_high, k_first_hub_colour);
 }
 
-// See contact_counts.shared.glsl. `its_traits`: the body's; `earlier_shift`, `last_shift`: those of A, or of B.
-inline uint order_at_body(uint its_traits, uint used_low, uint used_high, uint colour, uint earlier_shift, uint last_shift)
+// See contact_counts.shared.glsl. `pushed`: whether contacts push the body; `earlier_shift`, `last_shift`: those of A, or of B.
+inline uint order_at_body(bool pushed, uint used_low, uint used_high, uint colour, uint earlier_shift, uint last_shift)
 {
-    if ((its_traits & k_trait_movable) == 0u || colour >= k_first_hub_colour) return 0u;
+    if (!pushed || colour >= k_first_hub_colour) return 0u;
     uint last = is_last_colour(used_low, used_high, colour) ? 1u : 0u;
     return count_earlier(used_low, used_high, colour) << earlier_shift | last << last_shift;
 }

@@ -11,14 +11,14 @@ inline bool is_among(uint pair, uint first, uint count) { return pair >= first &
 // Of both bodies. In the other colours a hub is a body as others are.
 inline uint traits_of_constraint(BodyInertia a, BodyInertia b, uint colour)
 {
-    uint mask = choose(is_hub_colour(colour), k_trait_hub, 0u) | k_trait_movable | k_trait_round;
+    uint mask = choose(is_hub_colour(colour), k_trait_hub, 0u) | k_trait_movable | k_trait_round | k_trait_asleep;
     bool is_of_hub = ((a.traits | b.traits) & k_trait_hub) != 0u;
     uint whole_hub = choose(is_of_hub && colour < k_first_hub_colour, k_trait_whole_hub, 0u);
     return (a.traits & mask) | ((b.traits & mask) << k_traits_of_b) | whole_hub;
 }
 
-// The sub-steps of a contact between two bodies, and its rate. Of one that cannot be pushed the number does not count; where
-// both can, it is the same but in a multirate island.
+// The sub-steps of a contact between two bodies, and its rate. Of one that is not pushed the number does not count; where
+// both are, it is the same but in a multirate island.
 struct ContactRate {
     uint substeps;
     uint trait;
@@ -26,8 +26,8 @@ struct ContactRate {
 
 inline ContactRate find_rate(uint demand, BodyInertia a, BodyInertia b, Parameters p)
 {
-    bool pushes_a = (a.traits & k_trait_movable) != 0u;
-    bool pushes_b = (b.traits & k_trait_movable) != 0u;
+    bool pushes_a = is_pushed(a.traits);
+    bool pushes_b = is_pushed(b.traits);
     ContactRate rate;
     rate.substeps = max(max(choose(pushes_a, a.substeps, 1u), choose(pushes_b, b.substeps, 1u)), 1u);
     rate.trait = 0u;
@@ -81,13 +81,6 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.total_impulse = no_points;
     c.hit_impulse = no_points;
     return c;
-}
-
-// From A's centre to B's where the bodies meet; the positions are those at the start of the step.
-inline vec3 offset_at_meeting(vec3 position_a, vec3 position_b, vec3 shift)
-{
-    precise vec3 offset = (position_b - position_a) + shift;
-    return offset;
 }
 
 // `offset`: at the meeting.

@@ -16,3 +16,10 @@ inline Axes contact_frame(vec3 n)
     frame.z = n;
     return frame;
 }
+
+// From A's centre to B's where the bodies meet; the positions are those at the start of the step.
+inline vec3 offset_at_meeting(vec3 position_a, vec3 position_b, vec3 shift)
+{
+    precise vec3 offset = (position_b - position_a) + shift;
+    return offset;
+}

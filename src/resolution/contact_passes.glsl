@@ -129,9 +129,9 @@ ManifoldState begin_pass(VelocityPair velocities)
     return s;
 }
 
-void put_hit(uint body, BodyVelocity before, BodyVelocity after, float time)
+void put_hit(uint body, uint its_traits, BodyVelocity before, BodyVelocity after, float time)
 {
-    if (before.inverse_mass == 0.0) return;
+    if (before.inverse_mass == 0.0 || !is_pushed(its_traits)) return;
     BodyWarmStart warm = load_warm_start(body);
     warm_starts[body] = pack(leave_out(warm, before, after));
     store_hits(body, take_hit(load_hits(body), before, after, time));
@@ -165,17 +165,17 @@ ManifoldState pass_over_hit(uint index, float old_share)
                            falling_acceleration_of(body_a, before.velocities.a);
     Hit hit = solve_hit(before.velocities, rows, slip, separations, falling, substep.inv_h, parameters);
     if (!is_finite_pair(hit.velocities)) return before;
-    put_hit(body_a, before.velocities.a, hit.velocities.a, hit.time);
-    put_hit(body_b, before.velocities.b, hit.velocities.b, hit.time);
+    put_hit(body_a, traits, before.velocities.a, hit.velocities.a, hit.time);
+    put_hit(body_b, traits >> k_traits_of_b, before.velocities.b, hit.velocities.b, hit.time);
     cell_in_block(constraints, index, 15u) = floatBitsToUint(hits_of_constraint(index) + hit.impulse);
     return end_hit(before, hit, old_share);
 }
 
-// A body that contacts cannot push may be in many constraints of one colour: nobody writes it. Nor a hub.
+// A body that contacts do not push may be in many constraints of one colour: nobody writes it. Nor a hub.
 void put_velocity(uint index, uint tick, uint body, uint slot, uint its_traits, float part, BodyVelocity before,
                   BodyVelocity after)
 {
-    if (after.inverse_mass != 0.0) {
+    if (after.inverse_mass != 0.0 && is_pushed(its_traits)) {
         if (k_multirate_islands) after = change_in_part(before, after, part);
         if (k_hubs && (its_traits & k_trait_hub) != 0u)
             put_change(index, change_of_hub(body, before, after, hub_share, tick));

@@ -69,21 +69,21 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
                               falling(c.body_b, before.velocities.b) - falling(c.body_a, before.velocities.a),
                               substep.inv_h, state.parameters);
     if (!is_finite_pair(hit.velocities)) return before;
-    const auto take = [&](uint body, const BodyVelocity& was, const BodyVelocity& is) {
-        if (was.inverse_mass == 0.0f) return;
+    const auto take = [&](uint body, uint its_traits, const BodyVelocity& was, const BodyVelocity& is) {
+        if (was.inverse_mass == 0.0f || !is_pushed(its_traits)) return;
         state.warm_starts[body] = leave_out(state.warm_starts[body], was, is);
         put_hits(state, body, take_hit(hits_of(state, body), was, is, hit.time));
     };
-    take(c.body_a, before.velocities.a, hit.velocities.a);
-    take(c.body_b, before.velocities.b, hit.velocities.b);
+    take(c.body_a, c.traits, before.velocities.a, hit.velocities.a);
+    take(c.body_b, c.traits >> k_traits_of_b, before.velocities.b, hit.velocities.b);
     c.hit_impulse += hit.impulse;
     return end_hit(before, hit, target.old_share);
 }
 
-/// A body that contacts cannot push may be in many constraints of one colour: nobody writes it. Nor a hub.
+/// A body that contacts do not push may be in many constraints of one colour: nobody writes it. Nor a hub.
 inline void put_velocity(CpuState& state, uint index, ContactPass pass, uint tick, uint body, uint its_traits,
                          const BodyVelocity& before, BodyVelocity after) {
-    if (after.inverse_mass == 0.0f) return;
+    if (after.inverse_mass == 0.0f || !is_pushed(its_traits)) return;
     const ContactConstraint& c = state.constraints[index];
     // After the relax pass no sub-step follows that could have a part.
     if (pass != ContactPass::Relax)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its island's group and sub-steps, in a multirate island its own, and its place among the
-// bodies in the order of islands. An island that sleeps has neither, and no sub-steps. What moves as its caller says is no part of
-// one, and moves by launches.
+// bodies in the order of islands. What sleeps has neither, and no sub-steps. What moves as its caller says is no part of an island,
+// and moves by launches.
 // args.x: 1 where work groups solve islands. args.y: 1 where also those do that solve a single one. args.z: the size from
-// which on an island is multirate; k_none: none is.
+// which on an island is multirate; k_none: none is. args.w: 1 where Substeps says whether a body's island is.
 // Reads: Shapes, Islands, IslandSizes, IslandStarts (scanned).
 // Writes: Substeps, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
 // first; nothing that is made from it does.
@@ -35,28 +35,28 @@ void main()
     island_groups[body] = k_launched;
     island_places[body] = k_none;
     if (island == k_none) {
-        if (is_mover(unpack(shapes[body]))) atomicMax(counters[k_counter_launched_substeps], parameters.least_substeps);
-        return;
-    }
-    if ((island_fill[island] & k_awake) == 0u) {
-        substeps[body] = 0u;
+        bool moves = is_mover(unpack(shapes[body])) && substeps[body] != 0u;
+        if (moves) atomicMax(counters[k_counter_launched_substeps], parameters.least_substeps);
         return;
     }
     uint size = island_size(island_sizes[island]);
-    uint group = args.x == 1u ? island_group(size, island_starts[island], args.y == 1u) : k_launched;
-    uint place = island_starts[island] + (atomicAdd(island_fill[island], 1u) & ~k_awake);
+    bool multirate =
+        args.w == 1u ? (substeps[body] & k_multirate) != 0u : is_multirate_island(island_sizes[island], args.z);
+    uint group = args.x == 1u && !multirate ? island_group(size, island_starts[island], args.y == 1u) : k_launched;
+    uint place = island_starts[island] + (atomicAdd(island_fill[island], 1u) & k_fill_count);
     island_groups[body] = group;
     island_places[body] = place;
     island_bodies[place] = body;
     uint of_island = number_of_substeps(substeps[island]);
     uint ticks = args.z != k_none ? doubled_substeps(of_island, parameters) : of_island;
-    if (is_multirate_island(island_sizes[island], args.z)) {
+    if (multirate) {
         if (body == island) atomicAdd(counters[k_counter_multirate_islands], 1u);
         // The island's own body has the most: others read it.
-        substeps[body] = k_multirate | (body == island ? ticks : doubled_substeps(substeps[body], parameters));
+        uint own = doubled_substeps(number_of_substeps(substeps[body]), parameters);
+        substeps[body] = k_multirate | (body == island ? ticks : own);
     } else if (body != island) {
         substeps[body] = of_island;
     }
-    if (body == island && is_single(size)) atomicAdd(counters[k_counter_singles], 1u);
+    if (body == island && is_single(size) && !multirate) atomicAdd(counters[k_counter_singles], 1u);
     if (group == k_launched && body == island) atomicMax(counters[k_counter_launched_substeps], ticks);
 }

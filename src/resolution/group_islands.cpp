@@ -14,25 +14,25 @@ static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
         state.island_groups[body] = k_launched;
         state.island_places[body] = k_none;
         if (island == k_none) {
-            if (is_mover(state.shapes[body])) launched_substeps = max(launched_substeps, p.least_substeps);
+            const bool moves = is_mover(state.shapes[body]) && state.substeps[body] != 0;
+            if (moves) launched_substeps = max(launched_substeps, p.least_substeps);
             continue;
         }
-        if ((state.island_fill[island] & k_awake) == 0) {
-            state.substeps[body] = 0;
-            continue;
-        }
-        const uint place = state.island_starts[island] + (state.island_fill[island]++ & ~k_awake);
+        const uint place = state.island_starts[island] + (state.island_fill[island]++ & k_fill_count);
         const uint size = island_size(state.island_sizes[island]);
-        if (launch.args[0] == 1)
+        const bool multirate = launch.args[3] == 1 ? (state.substeps[body] & k_multirate) != 0
+                                                   : is_multirate_island(state.island_sizes[island], launch.args[2]);
+        if (launch.args[0] == 1 && !multirate)
             state.island_groups[body] = island_group(size, state.island_starts[island], launch.args[1] == 1);
-        if (body == island && is_single(size)) ++state.counters[k_counter_singles];
+        if (body == island && is_single(size) && !multirate) ++state.counters[k_counter_singles];
         state.island_places[body] = place;
         state.island_bodies[place] = body;
         const uint of_island = number_of_substeps(state.substeps[island]);
         const uint ticks = launch.args[2] != k_none ? doubled_substeps(of_island, p) : of_island;
-        if (is_multirate_island(state.island_sizes[island], launch.args[2])) {
+        if (multirate) {
             if (body == island) ++state.counters[k_counter_multirate_islands];
-            state.substeps[body] = k_multirate | (body == island ? ticks : doubled_substeps(state.substeps[body], p));
+            const uint own = doubled_substeps(number_of_substeps(state.substeps[body]), p);
+            state.substeps[body] = k_multirate | (body == island ? ticks : own);
         } else {
             state.substeps[body] = of_island;
         }

@@ -26,7 +26,21 @@ inline bool is_multirate_island(uint word, uint least_size)
 // the root the way to it would be as long as the row.
 inline uint order_of_root(uint body) { return body * 0x9e3779b1u; }
 
-const uint k_awake = 0x80000000u; // in IslandFill, beside a count of bodies
+// In IslandFill, beside a count of bodies that have a place. A body may be restless, or touch one that is; an island is awake
+// where any of it is or does. Once it is known who sleeps: a sleeper that something awake touches is pressed.
+const uint k_restless = 0x80000000u;
+const uint k_touched = 0x40000000u;
+const uint k_awake = 0x20000000u;
+const uint k_pressed = 0x10000000u;
+const uint k_fill_count = 0x0fffffffu;
+
+// What join_islands notes besides.
+const uint k_notes_nothing = 0u;
+const uint k_notes_touched = 1u;
+const uint k_notes_pressed = 2u; // islands are of what is awake
+
+// Whether what rests in an island may sleep while other parts of it move: a small one is solved as a whole, and at once.
+inline bool sleeps_in_parts(uint word) { return island_size(word) > k_most_single; }
 
 const uint k_launched = 0u; // in place of a group: the island has too many bodies for one
 

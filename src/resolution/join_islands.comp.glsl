@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: joins the islands of two bodies that touch, by hanging one root below the other
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
-// sub-steps of the manifold that asks for most. What contacts cannot push, but is restless, keeps awake what it touches.
+// sub-steps of the manifold that asks for most.
+// args.x: k_notes_touched where it is not known yet who sleeps; k_notes_pressed where sleepers are part of no island, and it is known what
+// all others ask for.
 // Reads: Counters, Manifolds.
-// Writes: Islands, Substeps, IslandFill; IslandSizes, that a column is tall.
+// Writes: Islands; Substeps; IslandSizes, that a column is tall; IslandFill, what it notes.
 // Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_graph.
 // Overflow: none.
@@ -51,6 +53,12 @@ void join(uint body_a, uint body_b)
     }
 }
 
+// Others may note the same.
+void note(uint body, uint what)
+{
+    if ((island_fill[body] & what) == 0u) atomicOr(island_fill[body], what);
+}
+
 void main()
 {
     uint pair = item_index();
@@ -59,10 +67,18 @@ void main()
     if (!is_active(manifold)) return;
     bool pushes_a = islands[manifold.body_a] != k_none;
     bool pushes_b = islands[manifold.body_b] != k_none;
-    if (pushes_a) atomicMax(substeps[manifold.body_a], substeps_of(manifold.demand));
-    if (pushes_b) atomicMax(substeps[manifold.body_b], substeps_of(manifold.demand));
-    if (pushes_a && pushes_b && tallness(manifold.demand) == 1u) island_sizes[manifold.body_a] = k_tall;
-    if (pushes_a && pushes_b) join(manifold.body_a, manifold.body_b);
-    if (!pushes_a && island_fill[manifold.body_a] == k_awake) island_fill[manifold.body_b] = k_awake;
-    if (!pushes_b && island_fill[manifold.body_b] == k_awake) island_fill[manifold.body_a] = k_awake;
+    if (args.x == k_notes_touched) {
+        if ((island_fill[manifold.body_a] & k_restless) != 0u) note(manifold.body_b, k_touched);
+        if ((island_fill[manifold.body_b] & k_restless) != 0u) note(manifold.body_a, k_touched);
+    }
+    if (args.x != k_notes_pressed) {
+        if (pushes_a) atomicMax(substeps[manifold.body_a], substeps_of(manifold.demand));
+        if (pushes_b) atomicMax(substeps[manifold.body_b], substeps_of(manifold.demand));
+        if (pushes_a && pushes_b && tallness(manifold.demand) == 1u) island_sizes[manifold.body_a] = k_tall;
+    }
+    if (pushes_a && pushes_b) {
+        join(manifold.body_a, manifold.body_b);
+    } else if (args.x == k_notes_pressed && pushes_a != pushes_b) {
+        note(pushes_a ? manifold.body_b : manifold.body_a, k_pressed);
+    }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a pair: its manifold's place in the order of the solve, by group and then by colour. One of an island
-// that sleeps comes last, as those that do not touch.
-// Reads: IslandGroups, Islands, Substeps, Manifolds.
+// One invocation is a pair: its manifold's place in the order of the solve, by group and then by colour. One between
+// sleepers comes last, as those that do not touch.
+// Reads: IslandGroups, Islands, Manifolds.
 // Writes: ManifoldKeys, in which it finds the colour; Counters, what needs launches and what sleeps; Manifolds, the colour
 // of what sleeps.
 // Needs: a barrier after group_islands.
@@ -13,7 +13,6 @@ layout(local_size_x = 64) in;
 
 layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
-layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) buffer Counters { uint counters[]; };
@@ -31,7 +30,7 @@ void main()
     }
     Manifold manifold = unpack(manifolds[pair]);
     uint body = islands[manifold.body_a] != k_none ? manifold.body_a : manifold.body_b;
-    if (substeps[body] == 0u) { // it wakes with the colour that it has
+    if (islands[body] == k_none) { // it wakes with the colour that it has
         if (manifold.colour != colour) manifolds[pair].cell_0.w = colour;
         manifold_keys[pair] = inactive_key(parameters.body_count);
         atomicAdd(counters[k_counter_sleeping_manifolds], 1u);

@@ -342,6 +342,7 @@ TALUS_LANE void put_velocity(const CpuState& state, const Places& places, const 
                              std::uint32_t lanes, ULanes body, ULanes its_traits, Lanes hub_share, std::uint32_t tick,
                              const BodyVelocity& before, const BodyVelocity& after) {
     const std::uint32_t of_hubs = bits_of((its_traits & k_trait_hub) != 0u);
+    lanes &= ~bits_of((its_traits & k_trait_asleep) != 0u);
     put_velocities(state, bodies, lanes & ~of_hubs, after);
     const std::uint32_t shares = lanes & of_hubs & bits_of(after.inverse_mass != 0.0f);
     if (shares == 0) return;

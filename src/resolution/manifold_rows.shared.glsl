@@ -51,6 +51,9 @@ inline vec3 velocity_between(vec3 linear, vec3 w_a, vec3 w_b, Arms arms)
 
 const uint k_traits_of_b = 4u; // bits that B's traits are shifted by in a constraint
 
+// Whether contacts push a body in this step; in a constraint the traits of B are shifted.
+inline bool is_pushed(uint traits) { return (traits & (k_trait_movable | k_trait_asleep)) == k_trait_movable; }
+
 inline bool is_against_static(uint traits)
 {
     return (traits & (traits >> k_traits_of_b) & k_trait_movable) == 0u;

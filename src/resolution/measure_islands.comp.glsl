@@ -36,7 +36,8 @@ void main()
     uint island = root_of(body);
     islands[body] = island;
     atomicMax(substeps[island], substeps[body]);
-    if (island_fill[body] == k_awake && island_fill[island] != k_awake) island_fill[island] = k_awake; // others write the same
+    bool keeps_awake = (island_fill[body] & (k_restless | k_touched)) != 0u;
+    if (keeps_awake && (island_fill[island] & k_awake) == 0u) atomicOr(island_fill[island], k_awake);
     bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
     atomicAdd(island_sizes[island], is_hub ? 1u + k_most_single : 1u);
     if (body != island && (island_sizes[body] & k_tall) != 0u) atomicOr(island_sizes[island], k_tall);

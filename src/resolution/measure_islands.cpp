@@ -12,7 +12,7 @@ static void measure_islands_on_cpu(CpuState& state, const Launch&) {
         if (state.islands[body] == k_none) continue;
         const uint island = state.islands[body] = root_of(state.islands, body);
         state.substeps[island] = max(state.substeps[island], state.substeps[body]);
-        if (state.island_fill[body] == k_awake) state.island_fill[island] = k_awake;
+        if ((state.island_fill[body] & (k_restless | k_touched)) != 0) state.island_fill[island] |= k_awake;
         const bool is_hub = state.body_colours[body_word(body, k_hub_word)] != 0;
         state.island_sizes[island] += is_hub ? 1 + k_most_single : 1;
         state.island_sizes[island] |= state.island_sizes[body] & k_tall;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
-// Where its island sleeps it stops, and is left alone.
+// Where it is to sleep it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands. args.z: 1 where something
 // bounces.
 // Reads: Counters, Poses, Velocities, Properties, Loads, Shapes, Substeps, IslandGroups, BodyColours.
 // Writes: Inertias, Deltas, WarmStarts (and no hits behind them), ToldLoads (none yet); LaunchedBodies, in any order, and
-// Counters; Poses (flags) and Velocities where a body falls asleep or wakes.
+// Counters; Poses (flags), Velocities and Rests where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -22,6 +22,7 @@ layout(std430) buffer Poses { BodyPoseCells poses[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
+layout(std430) buffer Rests { BodyRestCells rests[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
@@ -46,18 +47,23 @@ void main()
     if (flags != pose.flags) {
         pose.flags = flags;
         poses[body] = pack(pose);
-        if (asleep) velocities[body] = pack(stop(unpack(velocities[body])));
+        if (asleep) {
+            velocities[body] = pack(stop(unpack(velocities[body])));
+            rests[body] = pack(with_calm(unpack(rests[body]), parameters.rest_steps));
+        }
     }
+    deltas[body] = pack(no_delta());
+    uint traits = traits_of_body(unpack(shapes[body]), pose);
+    vec3 inverse_inertia = unpack(properties[body]).inverse_inertia;
     if (asleep) {
-        inertias[body] = pack(no_inertia());
+        inertias[body] = pack(inertia_asleep(pose.rotation, inverse_inertia, traits));
         atomicAdd(counters[k_counter_sleeping_bodies], 1u);
         return;
     }
     uint ticks = counters[k_counter_launched_substeps];
     uint word = args.x == 1u ? substeps[body] : ticks;
     uint its_substeps = number_of_substeps(word);
-    BodyInertia inertia = world_inertia(pose.rotation, unpack(properties[body]).inverse_inertia,
-                                        traits_of_body(unpack(shapes[body]), pose), its_substeps);
+    BodyInertia inertia = world_inertia(pose.rotation, inverse_inertia, traits, its_substeps);
     inertia.traits |= traits_in_graph(inertia.traits, body_colours[body_word(body, k_used_low)],
                                       body_colours[body_word(body, k_used_high)], body_colours[body_word(body, k_hub_word)]);
     if (word != its_substeps) inertia.traits |= slowness_trait(ticks, its_substeps);
@@ -66,6 +72,5 @@ void main()
     inertias[body] = pack(inertia);
     if (is_in_launched_bodies(inertia))
         launched_bodies[atomicAdd(counters[k_counter_launched_bodies], 1u)] = body;
-    deltas[body] = pack(no_delta());
     warm_starts[body] = pack(kept_warm_start(no_warm_start(), unpack(velocities[body])));
 }

@@ -17,18 +17,23 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         BodyPose& pose = state.poses[body];
         const bool asleep =
             state.parameters.rest_steps > 0 && is_movable(state.shapes[body]) && state.substeps[body] == 0;
-        if (asleep && !is_asleep(pose)) state.velocities[body] = stop(state.velocities[body]);
+        if (asleep && !is_asleep(pose)) {
+            state.velocities[body] = stop(state.velocities[body]);
+            state.rests[body] = with_calm(state.rests[body], state.parameters.rest_steps);
+        }
         pose.flags = sleep_flags(pose.flags, asleep);
+        state.deltas[body] = no_delta();
+        const uint traits = traits_of_body(state.shapes[body], pose);
+        const vec3& inverse_inertia = state.properties[body].inverse_inertia;
         if (asleep) {
-            state.inertias[body] = no_inertia();
+            state.inertias[body] = inertia_asleep(pose.rotation, inverse_inertia, traits);
             std::atomic_ref(state.counters[k_counter_sleeping_bodies]).fetch_add(1);
             return;
         }
         const uint ticks = state.counters[k_counter_launched_substeps];
         const uint word = launch.args[0] == 1 ? state.substeps[body] : ticks;
         const uint substeps = number_of_substeps(word);
-        state.inertias[body] = world_inertia(pose.rotation, state.properties[body].inverse_inertia,
-                                             traits_of_body(state.shapes[body], pose), substeps);
+        state.inertias[body] = world_inertia(pose.rotation, inverse_inertia, traits, substeps);
         const uint* const words = &state.body_colours[body_word(body, 0)];
         state.inertias[body].traits |=
             traits_in_graph(state.inertias[body].traits, words[k_used_low], words[k_used_high], words[k_hub_word]);
@@ -40,7 +45,6 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
             const uint place = std::atomic_ref(state.counters[k_counter_launched_bodies]).fetch_add(1);
             state.launched_bodies[place] = body;
         }
-        state.deltas[body] = no_delta();
         state.warm_starts[body] = kept_warm_start(no_warm_start(), state.velocities[body]);
     });
 }

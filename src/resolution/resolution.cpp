@@ -31,14 +31,25 @@ static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel
                     .overlaps_next = overlaps_next && plan.pair_capacity - first <= plan.near_pairs});
 }
 
+/// Finds islands of all that contacts can push, to know who sleeps; what is found behind it has islands of what is
+/// awake.
+static void choose_who_sleeps(Device& device, const StepPlan& plan) {
+    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {k_notes_touched}});
+    device.run({.kernel = measure_islands, .items = plan.body_count});
+    device.run({.kernel = choose_sleepers, .items = plan.body_count, .args = {plan.multirate_from()}});
+    device.run({.kernel = begin_awake, .items = plan.body_count});
+}
+
 /// The islands of a large world, and which of them a work group solves.
 static void find_island_groups(Device& device, const StepPlan& plan) {
-    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs});
+    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan);
+    const uint noted = plan.sleeps_in_parts() ? k_notes_pressed : k_notes_nothing;
+    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {noted}});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_graph_bodies, k_none);
     device.run({.kernel = group_islands,
                 .items = plan.body_count,
-                .args = {plan.has_groups(), plan.singles, plan.multirate_from()}});
+                .args = {plan.has_groups(), plan.singles, plan.multirate_from(), plan.sleeps_in_parts()}});
     device.run({.kernel = key_manifolds, .slot = k_dispatch_graph_pairs});
 }
 
@@ -153,8 +164,9 @@ void solve(Device& device, const StepPlan& plan) {
 }
 
 void store_impulses(Device& device, const StepPlan& plan) {
-    // What ends the step for bodies needs nothing of it; contact events do.
-    run_on_near_pairs(device, plan, store_contact_impulses, plan.watch == ContactWatch::None);
+    // What ends the step for bodies needs nothing of it; contact events do, and what weighs on sleepers.
+    const bool is_awaited = plan.watch != ContactWatch::None || plan.sleeps_in_parts();
+    run_on_near_pairs(device, plan, store_contact_impulses, !is_awaited);
 }
 
 } // namespace talus::engine

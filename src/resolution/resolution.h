@@ -34,6 +34,8 @@ extern const Kernel weigh_hubs;
 extern const Kernel find_islands;
 extern const Kernel join_islands;
 extern const Kernel measure_islands;
+extern const Kernel choose_sleepers;
+extern const Kernel begin_awake;
 extern const Kernel group_islands;
 extern const Kernel key_manifolds;
 extern const Kernel plan_colours;

@@ -36,7 +36,7 @@ inline BodyRest begin_rest(BodyPose pose)
 {
     BodyRest rest;
     rest.position = pose.position;
-    rest.reserved = 0.0f;
+    rest.calm = 0u;
     rest.rotation = pose.rotation;
     return rest;
 }
@@ -80,13 +80,34 @@ struct NextRest {
     uint flags;    // of its pose, with how long it has rested
 };
 
-// `moved`: where the step has brought it.
-inline NextRest next_rest(BodyPose pose, BodyPose moved, BodyDelta delta, BodyRest kept, BodyShape shape, Parameters p)
+// `moved`: where the step has brought it. `touched`: something restless touches it.
+inline NextRest next_rest(BodyPose pose, BodyPose moved, BodyDelta delta, BodyRest kept, bool touched, BodyShape shape, Parameters p)
 {
     NextRest next;
     next.rest = rest_so_far(pose, kept);
+    uint calm = touched ? 0u : min(next.rest.calm + 1u, p.rest_steps);
     next.flags = wake_flags(moved.flags);
     if (!ends_rest(moved, delta, next.rest, shape, p)) next.flags = count_rest(moved.flags, p);
     if (measures_anew(next.flags, p)) next.rest = begin_rest(moved);
+    next.rest.calm = calm;
     return next;
+}
+
+// Whether nothing restless has touched a body for as long as it has to rest, if nothing does in this step.
+inline bool is_calm(BodyRest rest, Parameters p) { return rest.calm + 1u >= p.rest_steps; }
+
+// Of what falls asleep, maybe with all of its island. A sleeper that is out of balance has been calm for no steps, and so is awake in the
+// next one.
+inline BodyRest with_calm(BodyRest rest, uint steps)
+{
+    rest.calm = steps;
+    return rest;
+}
+
+// Whether a contact is the last step's: a body of it sleeps, and the other does, or cannot be pushed.
+inline bool sleeps_through(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b)
+{
+    bool a_stays = is_asleep(pose_a) || !is_movable(shape_a);
+    bool b_stays = is_asleep(pose_b) || !is_movable(shape_b);
+    return a_stays && b_stays && (is_asleep(pose_a) || is_asleep(pose_b));
 }

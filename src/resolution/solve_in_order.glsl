@@ -55,10 +55,10 @@ BodyVelocity load_velocity(uint body)
 // What contacts make of a body. Nobody waits for what they cannot push, or for the last contact of the last pass.
 void store_in_order(uint body, uint its_traits, BodyVelocityCells before, BodyVelocity changed, uint earlier, bool is_last)
 {
-    bool is_movable = (its_traits & k_trait_movable) != 0u;
+    bool pushes = is_pushed(its_traits);
     bool stays = is_frozen(before); // as it is, but those behind wait for it
-    if (is_movable && is_last && (has_stamps(before) || !stays)) store_velocity(body, stays ? frozen_velocity() : changed);
-    if (is_movable && !is_last) {
+    if (pushes && is_last && (has_stamps(before) || !stays)) store_velocity(body, stays ? frozen_velocity() : changed);
+    if (pushes && !is_last) {
         BodyVelocityCells stored = before;
         if (!stays) stored = pack(changed);
         uint of_frozen = stays ? k_stamp_of_frozen : 0u;
@@ -181,7 +181,7 @@ void forget_fast_colours(uint body)
 
 void note_fast_colour(uint body, uint its_traits, uint colour)
 {
-    uint end = (its_traits & k_trait_movable) != 0u ? slowest_power() : 0u;
+    uint end = is_pushed(its_traits) ? slowest_power() : 0u;
     for (uint power = slowness(traits); power < end; ++power)
         atomicOr(fast_bodies[fast_word(body, power, used_word(colour))], used_bit(colour));
 }
@@ -189,7 +189,7 @@ void note_fast_colour(uint body, uint its_traits, uint colour)
 uint count_earlier_fast(uint body, uint its_traits, uint colour, uint power)
 {
     uint count = 0u;
-    if ((its_traits & k_trait_movable) != 0u)
+    if (is_pushed(its_traits))
         count = count_earlier(fast_bodies[fast_word(body, power, k_used_low)],
                               fast_bodies[fast_word(body, power, k_used_high)], colour);
     return count;

@@ -63,8 +63,8 @@ bool is_turn()
 void end_turns(uint index)
 {
     bool has_colour = index < end_index;
-    if (has_colour && (traits & k_trait_movable) != 0u) turns[slot_a] = number_after(earlier_of(counts, k_earlier_of_a) + 1u);
-    if (has_colour && (traits & (k_trait_movable << k_traits_of_b)) != 0u)
+    if (has_colour && is_pushed(traits)) turns[slot_a] = number_after(earlier_of(counts, k_earlier_of_a) + 1u);
+    if (has_colour && is_pushed(traits >> k_traits_of_b))
         turns[slot_b] = number_after(earlier_of(counts, k_earlier_of_b) + 1u);
 }
 

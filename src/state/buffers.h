@@ -25,7 +25,7 @@ namespace talus::engine {
     X(Shapes, shapes, BodyShape, "fffu", State)                                                                        \
     X(Properties, properties, BodyProperties, "fffffffffuuu", State)                                                   \
     X(Loads, loads, BodyLoad, "fffuffff", State)                                                                       \
-    X(Rests, rests, BodyRest, "ffffffff", State)                                                                       \
+    X(Rests, rests, BodyRest, "fffuffff", State)                                                                       \
     X(Starts, starts, BodyStart, "ffff", Result)                                                                       \
     X(Changes, changes, uint, "u", Scratch)                                                                            \
     /* broad phase */                                                                                                  \
@@ -80,6 +80,7 @@ namespace talus::engine {
     X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffuffffffffffffffffffffffffffffffffffffffffffff", \
       Result)                                                                                                          \
     X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
+    X(Balances, balances, uint, "u", Scratch)                                                                          \
     X(FastBodies, fast_bodies, uint, "u", Scratch)                                                                     \
     X(FastContacts, fast_contacts, FastContact, "uu", Scratch)                                                         \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \

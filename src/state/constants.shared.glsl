@@ -28,7 +28,7 @@ const uint k_phase_end = 2u;
 // BodyPose::flags
 const uint k_body_frozen = 1u; // went non-finite; stays where it was
 const uint k_body_placed = 2u; // the caller put it there since the last step
-const uint k_body_asleep = 4u; // its island sleeps
+const uint k_body_asleep = 4u; // it sleeps
 const uint k_body_disturbed = 8u; // the caller has changed it since the last step; only while islands may sleep
 const uint k_rest_shift = 8u; // from this bit on: steps in a row in which it has rested
 
@@ -36,9 +36,10 @@ const uint k_rest_shift = 8u; // from this bit on: steps in a row in which it ha
 const uint k_trait_movable = 1u; // contacts can push the body
 const uint k_trait_round = 2u;   // a sphere: where it is touched does not turn with it
 const uint k_trait_hub = 4u;     // a hub; in a constraint: of whose mass this is a share
-const uint k_trait_grouped = 8u; // of an island that a work group solves
-const uint k_trait_moves = 16u;  // it is rigid or kinematic, and not frozen
+const uint k_trait_asleep = 8u;  // it stays where it is, whatever pushes it in this step
+const uint k_trait_moves = 16u;  // it is rigid or kinematic, and neither frozen nor asleep
 const uint k_trait_loaded = 32u; // the caller pushes it in this step: what has no load need not be asked for it in each sub-step
+const uint k_trait_grouped = 64u; // of an island that a work group solves
 const uint k_contacts_of_body = 9u; // from this bit on, 6 of them: contacts in all colours but those of hubs
 const uint k_trait_whole_hub = 256u; // only in a constraint: of a hub, in a colour where that is a body as others are
 

@@ -55,6 +55,7 @@ namespace talus::engine {
 
 #include "resolution/island.shared.glsl"
 
+#include "resolution/balance.shared.glsl"
 #include "resolution/contact_constraint.shared.glsl"
 #include "resolution/hit.shared.glsl"
 

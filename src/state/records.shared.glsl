@@ -57,7 +57,7 @@ struct BodyStart {
 // 32 bytes. Where the body was when its rest began. Kept while islands may sleep.
 struct BodyRest {
     vec3 position; // m, world
-    float reserved;
+    uint calm;     // steps since then without a touch of anything restless; up to as many as it has to rest
     vec4 rotation;
 };
 
