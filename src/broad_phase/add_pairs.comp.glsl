@@ -4,14 +4,14 @@
 // Reads: Poses, Velocities, Shapes, Strays, KnownPairs, NearPairs.
 // Writes: Pairs, OrientedBoxes, Aabbs, Counters.
 // Needs: a barrier after search_strays.
-// Overflow: where there is no room for all, the list and the boxes stay as they are, and the step does not fit. So a list is the
+// Overflow: where very many are new all are searched for; where there is no room for all, the list and the boxes stay as they are, and the step does not fit. So a list is the
 // same in however much room.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
 #include "broad_phase/strays.shared.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = 1024) in;
 
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
@@ -26,14 +26,27 @@ layout(std430) buffer Counters { uint counters[]; };
 
 #include "broad_phase/box_now.glsl"
 
-shared Pair new_pairs[k_most_stray_pairs]; // in any order
+shared Pair new_pairs[k_most_new_pairs]; // in any order
 shared uint new_count;
+shared Pair known[gl_WorkGroupSize.x]; // a tile of the pairs that are in the list
 
-void keep_if_new(Pair pair, uint known_count)
+// Asks about a near pair each; `near_count` of all.
+void keep_what_is_new(uint first, uint near_count, uint known_count)
 {
-    for (uint i = 0u; i < known_count; ++i)
-        if (is_same_pair(known_pairs[i], pair)) return;
-    new_pairs[atomicAdd(new_count, 1u)] = pair;
+    uint me = gl_LocalInvocationID.x;
+    bool is_new = first + me < near_count;
+    Pair pair = near_pairs[min(first + me, near_count - 1u)];
+    for (uint tile = 0u; tile < known_count; tile += gl_WorkGroupSize.x) {
+        uint count = min(known_count - tile, gl_WorkGroupSize.x);
+        if (me < count) known[me] = known_pairs[tile + me];
+        barrier();
+        for (uint i = 0u; i < count; ++i)
+            is_new = is_new && !is_same_pair(known[i], pair);
+        barrier();
+    }
+    if (!is_new) return;
+    uint place = atomicAdd(new_count, 1u);
+    if (place < k_most_new_pairs) new_pairs[place] = pair;
 }
 
 void add(Pair pair, uint list_count)
@@ -50,11 +63,17 @@ void main()
     uint stray_count = counters[k_counter_stray_count];
     if (stray_count == 0u || counters[k_counter_search_count] != 0u) return;
     uint list_count = counters[k_counter_pair_demand];
+    uint near_count = counters[k_counter_near_pairs];
+    uint known_count = counters[k_counter_known_pairs];
     if (me == 0u) new_count = 0u;
     barrier();
-    for (uint i = me; i < counters[k_counter_near_pairs]; i += gl_WorkGroupSize.x)
-        keep_if_new(near_pairs[i], counters[k_counter_known_pairs]);
+    for (uint first = 0u; first < near_count; first += gl_WorkGroupSize.x)
+        keep_what_is_new(first, near_count, known_count);
     barrier();
+    if (new_count > k_most_new_pairs) {
+        if (me == 0u) counters[k_counter_search_count] = parameters.body_count;
+        return;
+    }
     if (list_count + new_count > parameters.pair_capacity) {
         if (me != 0u) return;
         counters[k_counter_wanted_pairs] = list_count + new_count;
@@ -63,10 +82,10 @@ void main()
     }
     for (uint i = me; i < new_count; i += gl_WorkGroupSize.x)
         add(new_pairs[i], list_count);
-    if (me < stray_count) {
-        OrientedBox box = box_with_skin(strays[me]);
-        oriented_boxes[strays[me]] = pack(box);
-        aabbs[strays[me]] = pack(compute_aabb(box));
+    for (uint i = me; i < stray_count; i += gl_WorkGroupSize.x) {
+        OrientedBox box = box_with_skin(strays[i]);
+        oriented_boxes[strays[i]] = pack(box);
+        aabbs[strays[i]] = pack(compute_aabb(box));
     }
     if (me != 0u) return;
     counters[k_counter_pair_demand] = list_count + new_count;

@@ -15,10 +15,14 @@ static void add_pairs_on_cpu(CpuState& state, const Launch&) {
     if (strays.empty() || counters[k_counter_search_count] != 0) return;
     const std::span known(state.known_pairs.data, counters[k_counter_known_pairs]);
     const std::span pairs_near(state.near_pairs.data, counters[k_counter_near_pairs]);
+    std::ranges::sort(known, comes_before);
     std::vector<Pair> added;
     for (const Pair& pair : pairs_near)
-        if (std::ranges::none_of(known, [&](const Pair& other) { return is_same_pair(other, pair); }))
-            added.push_back(pair);
+        if (!std::ranges::binary_search(known, pair, comes_before)) added.push_back(pair);
+    if (added.size() > k_most_new_pairs) {
+        counters[k_counter_search_count] = state.parameters.body_count;
+        return;
+    }
     std::ranges::sort(added, comes_before);
     const uint list_count = counters[k_counter_pair_demand], new_count = static_cast<uint>(added.size());
     if (list_count + new_count > state.parameters.pair_capacity) {

@@ -88,9 +88,11 @@ static void search_all(Device& device, const StepPlan& plan) {
 // What it launches does nothing in a step whose pairs are still those of the last search, or where a smaller search
 // does.
 static void search(Device& device, const StepPlan& plan) {
-    device.run({.kernel = find_strays, .items = plan.body_count});
+    // Nobody wants the list of launched bodies before the resolution makes it.
+    const std::initializer_list<Binding> bindings{{"StrayMarks", BufferId::LaunchedBodies}};
+    device.run({.kernel = find_strays, .items = plan.body_count, .bindings = bindings});
     if (plan.search == Search::None) return;
-    device.run({.kernel = search_strays, .items = std::max(plan.body_count, plan.pair_capacity)});
+    device.run({.kernel = search_strays, .items = std::max(plan.body_count, plan.pair_capacity), .bindings = bindings});
     device.run({.kernel = add_pairs, .items = 1});
     if (plan.search != Search::All) return;
     if (plan.sweeps_in_group()) {

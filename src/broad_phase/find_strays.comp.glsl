@@ -3,7 +3,7 @@
 // pairs are searched for anew. Where there are many strays, or many pairs have been added to the list since it was made, or it is
 // not of these slots, all pairs are.
 // Reads: Poses, Velocities, Shapes, OrientedBoxes.
-// Writes: Counters; Strays, in any order.
+// Writes: Counters; Strays, in any order; StrayMarks, 1 of a stray, unless all are searched for.
 // Needs: nothing.
 // Overflow: none; after a step that did not fit nothing is searched for, as it will be done again with the pairs that it
 // had.
@@ -20,6 +20,7 @@ layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
 layout(std430) coherent buffer Counters { uint counters[]; };
 layout(std430) writeonly buffer Strays { uint strays[]; };
+layout(std430) writeonly buffer StrayMarks { uint stray_marks[]; };
 
 #include "broad_phase/box_now.glsl"
 
@@ -28,13 +29,17 @@ void main()
     uint body = item_index();
     if (body >= parameters.body_count || counters[k_counter_did_not_fit] != 0u) return;
     if (counters[k_counter_search_count] != 0u) return; // it is known already
+    stray_marks[body] = 0u;
     bool other_list = counters[k_counter_searched_slots] != parameters.body_count;
     if (!other_list && is_within(box_now(body), unpack(oriented_boxes[body]))) return;
     bool takes_all = other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
-    bool are_many = counters[k_counter_stray_count] >= k_most_strays; // known without adding to what all add to
-    uint place = takes_all || are_many ? k_most_strays : atomicAdd(counters[k_counter_stray_count], 1u);
-    if (place < k_most_strays)
-        strays[place] = body;
-    else
+    uint most = most_strays(parameters.body_count);
+    bool are_many = counters[k_counter_stray_count] >= most; // known without adding to what all add to
+    uint place = takes_all || are_many ? most : atomicAdd(counters[k_counter_stray_count], 1u);
+    if (place >= most) {
         counters[k_counter_search_count] = parameters.body_count; // all write the same
+        return;
+    }
+    strays[place] = body;
+    stray_marks[body] = 1u;
 }

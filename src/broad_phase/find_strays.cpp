@@ -14,17 +14,18 @@ static void find_strays_on_cpu(CpuState& state, const Launch&) {
     const bool other_list = counters[k_counter_searched_slots] != body_count;
     const bool takes_all =
         other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
-    std::atomic<uint> count = other_list ? k_most_strays + 1 : 0;
+    const uint most = most_strays(body_count);
+    std::atomic<uint> count = other_list ? most + 1 : 0;
     state.parallel(other_list ? 0 : body_count, [&](uint body) {
-        if (count.load(std::memory_order_relaxed) > k_most_strays) return;
+        if (count.load(std::memory_order_relaxed) > most) return;
         if (is_within(box_now(state, body), state.oriented_boxes[body])) return;
-        const uint place = takes_all ? k_most_strays : count.fetch_add(1, std::memory_order_relaxed);
-        if (place < k_most_strays)
+        const uint place = takes_all ? most : count.fetch_add(1, std::memory_order_relaxed);
+        if (place < most)
             state.strays[place] = body;
         else
-            count.store(k_most_strays + 1, std::memory_order_relaxed);
+            count.store(most + 1, std::memory_order_relaxed);
     });
-    if (count > k_most_strays)
+    if (count > most)
         counters[k_counter_search_count] = body_count;
     else
         counters[k_counter_stray_count] = count;

@@ -11,8 +11,6 @@
 
 namespace talus::engine {
 
-static_assert(k_most_strays <= k_group_size, "an invocation of a group for each stray");
-
 static void search_strays_on_cpu(CpuState& state, const Launch&) {
     const Array<uint>& counters = state.counters;
     if (counters[k_counter_search_count] != 0) return;
@@ -30,7 +28,7 @@ static void search_strays_on_cpu(CpuState& state, const Launch&) {
 
     const auto note = [&](const Array<Pair>& list, uint counter, Pair pair) {
         const uint place = std::atomic_ref(counters[counter]).fetch_add(1);
-        if (place < k_most_stray_pairs)
+        if (place < most_stray_pairs(state.parameters.body_count))
             list[place] = pair;
         else
             std::atomic_ref(counters[k_counter_search_count]).store(state.parameters.body_count);

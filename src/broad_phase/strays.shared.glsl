@@ -3,6 +3,12 @@
 // not. Pairs that are near no more stay in it until all are searched for, so all others keep their places, and a constraint graph of
 // them may last.
 
+// How many bodies of so many may be searched for by themselves: a thousandth, as each looks at all strays.
+inline uint most_strays(uint body_count) { return min(max(body_count / 1024u, 64u), k_most_strays); }
+
+// Of these: that are in the list, and that are near.
+inline uint most_stray_pairs(uint body_count) { return k_pairs_a_stray * most_strays(body_count); }
+
 // Whether the list has had so many pairs added since it was made that a new one would be much shorter.
 inline bool is_much_added(uint added, uint pair_count) { return added > pair_count / k_share_added; }
 

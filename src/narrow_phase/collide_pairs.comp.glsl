@@ -74,13 +74,19 @@ OldPoints read_old_points(uint old_index)
     return points;
 }
 
+// Of most bodies that sleep nothing else is loaded.
+bool stays(uint body, BodyPose pose)
+{
+    if (is_asleep(pose)) return true;
+    return is_left_alone(pose, unpack(velocities[body]), unpack(shapes[body]));
+}
+
 bool sleeps(uint body_a, uint body_b)
 {
     BodyPose pose_a = unpack(poses[body_a]);
     BodyPose pose_b = unpack(poses[body_b]);
-    return (is_asleep(pose_a) || is_asleep(pose_b)) &&
-           is_left_alone(pose_a, unpack(velocities[body_a]), unpack(shapes[body_a])) &&
-           is_left_alone(pose_b, unpack(velocities[body_b]), unpack(shapes[body_b]));
+    if (!is_asleep(pose_a) && !is_asleep(pose_b)) return false;
+    return stays(body_a, pose_a) && stays(body_b, pose_b);
 }
 
 void put_impulses(uint pair_index, vec4 normal)
@@ -140,6 +146,10 @@ void main()
     uint pair_index = item_index();
     if (pair_index >= counters[k_counter_pair_count]) return;
     Pair pair = pairs[pair_index];
+    if (parameters.rest_steps > 0u && sleeps(pair.body_a, pair.body_b)) {
+        keep_manifold(pair_index, pair, old_manifold_of(pair_index, pair));
+        return;
+    }
     // The search saw boxes with a skin.
     Aabb box_a = compute_aabb(box_now(pair.body_a));
     Aabb box_b = compute_aabb(box_now(pair.body_b));
@@ -148,10 +158,6 @@ void main()
     if (old_index == k_none && !is_candidate(box_a, box_b)) {
         put_none(pair_index, pair);
         compare_with_last(pair_index, no_manifold(pair));
-        return;
-    }
-    if (parameters.rest_steps > 0u && sleeps(pair.body_a, pair.body_b)) {
-        keep_manifold(pair_index, pair, old_index);
         return;
     }
     Carriers carriers = no_carriers();

@@ -125,13 +125,13 @@ uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::a
     for (uint index = first; index < end; ++index) {
         const Pair pair = state.pairs[index];
         const auto is_among = [&](uint pairs) { return (pairs >> (index - first) & 1u) != 0; };
-        const uint old_index = is_among(near.still) ? old_manifold_of(state, index, same_pairs) : k_none;
-        if (old_index == k_none && !is_among(near.now)) {
-            put_none(state, index);
+        if (state.parameters.rest_steps > 0 && sleeps(state, pair)) {
+            keep_manifold(state, index, old_manifold_of(state, index, same_pairs));
             continue;
         }
-        if (state.parameters.rest_steps > 0 && sleeps(state, pair))
-            keep_manifold(state, index, old_index);
+        const uint old_index = is_among(near.still) ? old_manifold_of(state, index, same_pairs) : k_none;
+        if (old_index == k_none && !is_among(near.now))
+            put_none(state, index);
         else
             in_hand[count++] = {index, old_index, read_old_points(state, old_index), no_query()};
     }

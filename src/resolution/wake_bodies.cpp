@@ -11,7 +11,8 @@ static void wake_bodies_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(state.parameters.body_count, [&](uint body) {
         const bool disturbed = state.loads[body].disturbed != 0;
         uint& flags = state.poses[body].flags;
-        if (disturbed || launch.args[0] == 1) flags = wake_flags(flags) | (disturbed ? k_body_disturbed : 0);
+        const bool is_gone = is_asleep(state.poses[body]) && !is_present(state.shapes[body]);
+        if (disturbed || is_gone || launch.args[0] == 1) flags = wake_flags(flags) | (disturbed ? k_body_disturbed : 0);
     });
 }
 

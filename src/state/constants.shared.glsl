@@ -128,8 +128,10 @@ const uint k_search_strays = 1u;
 const uint k_search_all = 2u;
 
 // Bodies that are searched for by themselves where they have left their boxes; where there are more, all are.
-const uint k_most_strays = 64u;
-const uint k_most_stray_pairs = 1024u; // of theirs that are in the list, and that are near
+const uint k_most_strays = 512u;       // in worlds of half a million bodies and more
+const uint k_pairs_a_stray = 16u;      // that are in the list, and that are near, of all strays together
+const uint k_most_stray_pairs = k_most_strays * k_pairs_a_stray;
+const uint k_most_new_pairs = 2048u;   // of theirs, in a step
 const uint k_share_added = 8u;         // of the pairs; where more have been added, all are searched for
 
 // In k_counter_graph_due: nor will this step's be the next one's. A body that has become a hub keeps the colours of its old
