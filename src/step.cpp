@@ -45,7 +45,7 @@ Tickets step(const Placement& placement, const StepPlan& plan, bool with_poses, 
         if (placement.hybrid() && stage == Stage::ConstraintGraph) {
             hand_over_manifolds(*placement.detection, *placement.resolution);
             // Contact events compare with the last step's manifolds.
-            if (plan.watch != ContactWatch::None) index_old_manifolds(*placement.resolution, plan);
+            if (plan.watch != ContactWatch::None) index_old_manifolds(*placement.resolution);
             tickets.detection = placement.detection->end_step(false);
         }
         run_stage(placement.of(stage), stage, plan);

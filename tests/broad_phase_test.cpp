@@ -497,6 +497,49 @@ TEST_P(BroadPhases, many_strays_are_a_search_for_all) {
     }
 }
 
+/// Up to a thousandth of the bodies.
+TEST_P(BroadPhases, a_large_world_has_more_strays) {
+    constexpr uint k_ballast = 102'400, k_strays = 99;
+    std::vector<BodyDefinition> bodies;
+    for (uint i = 0; i < k_ballast; ++i)
+        bodies.push_back(box_at({3.0f * static_cast<float>(i % 320), -50.0f, 3.0f * static_cast<float>(i / 320)},
+                                {1.0f, 1.0f, 1.0f}, BodyKind::Static));
+    for (uint i = 0; i < k_strays; ++i) {
+        const Vec3 place{5.0f * static_cast<float>(i % 10), 0.0f, 5.0f * static_cast<float>(i / 10)};
+        bodies.push_back(sphere_at(place));
+        bodies.back().velocity.linear = {0.0f, 0.6f, 0.0f};
+        bodies.push_back(box_at(place + Vec3{0.0f, 1.06f, 0.0f}, {1.0f, 1.0f, 1.0f}, BodyKind::Static));
+    }
+    BodyDefinition ceiling = box_at({22.0f, 1.07f, 22.0f}, {60.0f, 1.0f, 60.0f}, BodyKind::Static);
+    bodies.push_back(ceiling); // larger than all cells that strays lie in
+    Settings settings = weightless();
+    settings.substeps = settings.max_substeps = 1;
+    EngineRun run(options_on(GetParam()), bodies, settings);
+    EngineRun reference(options_on(DeviceKind::Cpu), bodies, settings);
+    uint most = 0, strayed = 0, searched = 0;
+    for (int i = 0; i < 7; ++i) {
+        for (EngineRun* each : {&run, &reference})
+            each->step();
+        const uint count = run.counter(engine::k_counter_pair_count);
+        ASSERT_EQ(count, reference.counter(engine::k_counter_pair_count)) << i;
+        const auto pairs_found_by = [count](EngineRun& each) {
+            std::vector<engine::Pair> found(count);
+            const engine::ReadRequest request{engine::BufferId::Pairs, count * sizeof(engine::Pair), found.data()};
+            each.simulation.detection_device().read({&request, 1});
+            return found;
+        };
+        const std::vector<engine::Pair> pairs = pairs_found_by(run), expected = pairs_found_by(reference);
+        for (uint k = 0; k < count; ++k)
+            ASSERT_TRUE(engine::is_same_pair(pairs[k], expected[k])) << "pair " << k << ", step " << i;
+        most = std::max(most, count);
+        strayed += i > 0 ? run.counter(engine::k_counter_strayed) : 0;
+        searched += i > 0 ? run.counter(engine::k_counter_searched) : 0;
+    }
+    EXPECT_EQ(most, 2 * k_strays) << "with the box above each, and the ceiling";
+    EXPECT_GT(strayed, 0u);
+    EXPECT_LT(searched, strayed) << "most steps search for strays alone";
+}
+
 TEST_P(BroadPhases, a_stray_with_very_many_pairs_is_a_search_for_all) {
     std::vector<BodyDefinition> bodies;
     for (int x = 0; x < 40; ++x)

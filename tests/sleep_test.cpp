@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 
+#include "parameters.h"
 #include "parity.h"
+#include "state/formulas.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
 
@@ -549,6 +552,128 @@ TEST_P(Sleep, what_loses_its_support_in_a_large_island_falls) {
     EXPECT_LT(world.pose(plank).position.y, 0.5f);
     EXPECT_LT(world.pose(on_top).position.y, 1.1f);
     EXPECT_TRUE(world.is_asleep(boxes.back()));
+}
+
+/// What a sleeper is weighed by, of two boxes on top of each other whose contact has all that a contact may have.
+TEST(Balance, of_a_contact_both_bodies_get_the_opposite) {
+    using namespace engine;
+    Manifold manifold{};
+    manifold.point_count = 3;
+    manifold.normal = {0.6f, 0.8f, 0.0f};
+    manifold.tangent_impulse_1 = 3.0f;
+    manifold.tangent_impulse_2 = -2.0f;
+    manifold.twist_impulse = 0.7f;
+    const vec4 normal(1.0f, 2.0f, 4.0f, 99.0f); // the last is of no point
+    vec3 anchors[4] = {{0.5f, 0.4f, 0.3f}, {-0.5f, 0.6f, 0.1f}, {0.2f, 0.5f, -0.4f}, {9.0f, 9.0f, 9.0f}};
+    const vec3 offset(0.3f, 1.1f, -0.2f); // from A's centre to B's
+    const Push a = push_of_contact(manifold, normal, anchors, vec3(0.0f), -1.0f);
+    const Push b = push_of_contact(manifold, normal, anchors, offset, 1.0f);
+    EXPECT_EQ(a.size, 7.0f);
+    EXPECT_EQ(b.size, 7.0f);
+    EXPECT_LT(glm::length(a.impulse + b.impulse), 1e-5f);
+    EXPECT_NEAR(glm::dot(b.impulse, manifold.normal), 7.0f, 1e-5f) << "B is pushed along the normal";
+    EXPECT_NEAR(glm::length(b.impulse), std::sqrt(49.0f + 13.0f), 1e-4f);
+    EXPECT_LT(glm::length(a.moment + b.moment + glm::cross(offset, b.impulse)), 1e-4f) << "about A's centre";
+    const Push still = push_of_contact(manifold, vec4(0.0f), anchors, vec3(0.0f), -1.0f);
+    EXPECT_NEAR(glm::dot(still.moment, manifold.normal) + 0.7f,
+                glm::dot(glm::cross((anchors[0] + anchors[1] + anchors[2]) / 3.0f, still.impulse), manifold.normal),
+                1e-5f)
+        << "the twist, and friction at the middle of the points";
+}
+
+TEST(Balance, ends_beyond_an_eighth_of_the_load) {
+    using namespace engine;
+    for (const float gravity : {9.81f, 1.62f}) {
+        for (const float dt : {1.0f / 60.0f, 1.0f / 240.0f}) {
+            Settings settings;
+            settings.dt = dt;
+            settings.gravity = {0.0f, -gravity, 0.0f};
+            const Parameters p = make_parameters(settings, {});
+            const float weight = gravity * dt; // m/s
+            const vec3 up(0.0f, 1.0f, 0.0f), none(0.0f);
+            EXPECT_TRUE(is_balanced(up * weight, none, weight, 1.0f, p));
+            EXPECT_TRUE(is_balanced(up * (0.9f * weight), none, 0.9f * weight, 1.0f, p));
+            EXPECT_FALSE(is_balanced(up * (0.85f * weight), none, 0.85f * weight, 1.0f, p));
+            EXPECT_FALSE(is_balanced(none, none, 0.0f, 1.0f, p)) << "it would fall";
+            EXPECT_TRUE(is_balanced(none, none, 0.0f, 0.0f, p)) << "nothing pulls it";
+            EXPECT_TRUE(is_balanced(up * weight, up * (0.1f * weight), weight, 1.0f, p));
+            EXPECT_FALSE(is_balanced(up * weight, up * (0.15f * weight), weight, 1.0f, p));
+            EXPECT_TRUE(is_balanced(up * (1.8f * weight), none, 20.0f * weight, 1.0f, p)) << "it carries ten weights";
+        }
+    }
+    EXPECT_EQ(speed_of_balance(balance_word(-0.125f)), -0.125f);
+    EXPECT_EQ(balance_word(1e30f) + balance_word(-1e30f), 0u);
+}
+
+/// On the CPU: all devices give the same bits.
+World world_on_cpu(Settings settings, float dt) {
+    settings.dt = dt;
+    return World(settings, options_on(DeviceKind::Cpu));
+}
+
+TEST(SleepInParts, a_tower_goes_along_with_what_sinks_slowly) {
+    for (const float dt : {1.0f / 60.0f, 1.0f / 240.0f}) {
+        for (const float gravity : {9.81f, 1.62f}) {
+            SCOPED_TRACE(testing::Message() << dt << " s, " << gravity << " m/s²");
+            Settings settings = with_quick_sleep();
+            settings.gravity = {0.0f, -gravity, 0.0f};
+            World world = world_on_cpu(settings, dt);
+            const BodyId lift = world.add(box_at({16.0f, -0.5f, 16.0f}, {60.0f, 1.0f, 60.0f}, BodyKind::Kinematic));
+            const std::vector<BodyId> boxes = add_pavement(world);
+            std::vector<BodyId> tower{boxes[5 * k_side + 5]};
+            for (int i = 1; i < 5; ++i)
+                tower.push_back(
+                    world.add(box_at(world.pose(tower[0]).position + Vec3{0.0f, static_cast<float>(i), 0.0f})));
+            step_until_asleep(world, static_cast<std::uint32_t>(boxes.size() + tower.size() - 1), 400);
+            const float ground_before = world.pose(lift).position.y;
+            std::vector<float> before;
+            for (const BodyId id : tower)
+                before.push_back(world.pose(id).position.y);
+            world.set_velocity(lift, {{0.0f, -0.008f, 0.0f}, {}}); // slower than what rests
+            world.step(static_cast<std::uint32_t>(2.0f / dt));
+            const float sunk = world.pose(lift).position.y - ground_before;
+            EXPECT_NEAR(sunk, -0.016f, 0.001f);
+            for (std::size_t i = 0; i < tower.size(); ++i)
+                EXPECT_NEAR(world.pose(tower[i]).position.y - before[i], sunk, 0.003f) << i;
+        }
+    }
+}
+
+TEST(SleepInParts, a_seesaw_tips_by_a_load_that_grows_as_it_would_awake) {
+    for (const float dt : {1.0f / 60.0f, 1.0f / 240.0f}) {
+        SCOPED_TRACE(dt);
+        std::array<float, 2> tipped{}; // s
+        for (const bool sleeping : {false, true}) {
+            Settings settings = with_quick_sleep();
+            settings.sleeping = sleeping;
+            World world = world_on_cpu(settings, dt);
+            world.add(ground());
+            const std::vector<BodyId> boxes = add_pavement(world);
+            const Vec3 top = world.pose(boxes[16 * k_side + 16]).position + Vec3{0.0f, 0.5f, 0.0f};
+            world.add(box_at(top + Vec3{0.0f, 0.5f, 0.0f}));
+            BodyDefinition board = box_at(top + Vec3{0.0f, 1.25f, 0.0f}, {6.0f, 0.5f, 1.0f});
+            board.mass = 2000.0f;
+            const BodyId plank = world.add(board);
+            std::vector<BodyId> load;
+            for (int i = 0; i < 2; ++i)
+                load.push_back(
+                    world.add(weighing(box_at(top + Vec3{2.5f, 2.0f + static_cast<float>(i), 0.0f}), 50.0f)));
+            const int most = static_cast<int>(6.0f / dt);
+            world.step(static_cast<std::uint32_t>(1.0f / dt));
+            if (sleeping) {
+                EXPECT_TRUE(world.is_asleep(plank));
+            }
+            int step = 0;
+            for (; step < most && std::abs(world.pose(plank).rotation.z) < 0.05f; ++step) {
+                const float share = 0.2f * static_cast<float>(step) * dt; // of the plank's weight
+                world.add_force(load[1], {0.0f, -std::min(share, 0.8f) * 2000.0f * 9.81f, 0.0f});
+                world.step();
+            }
+            tipped[sleeping ? 1 : 0] = static_cast<float>(step) * dt;
+        }
+        EXPECT_LT(tipped[0], 4.0f);
+        EXPECT_NEAR(tipped[1], tipped[0], 0.3f);
+    }
 }
 
 TEST_P(Sleep, parts_of_an_island_sleep_alike_on_every_device_and_after_a_snapshot) {

@@ -59,8 +59,10 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_launched_bodies] = 0;
     state.arrivals[0] = 0;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
-    const uint looked_up = other_pairs || launch.args[3] == 1 ? counters[k_counter_old_pair_count] : 0;
-    state.dispatches[k_dispatch_old_pairs] = groups_for(looked_up, k_group_size);
+    const bool looks_up = other_pairs || launch.args[3] == 1;
+    state.dispatches[k_dispatch_table] = groups_for(looks_up ? state.parameters.table_size : 0, k_group_size);
+    state.dispatches[k_dispatch_old_pairs] =
+        groups_for(looks_up ? counters[k_counter_old_pair_count] : 0, k_group_size);
 }
 
 const Kernel plan_pairs{"broad_phase/plan_pairs", plan_pairs_on_cpu, 1};

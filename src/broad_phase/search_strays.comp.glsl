@@ -10,7 +10,7 @@
 #include "broad_phase/oriented_box.shared.glsl"
 #include "broad_phase/strays.shared.glsl"
 
-layout(local_size_x = 64) in; // k_tile
+layout(local_size_x = 256) in;
 
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
@@ -26,12 +26,15 @@ layout(std430) buffer Counters { uint counters[]; };
 
 #include "broad_phase/box_now.glsl"
 
-const uint k_tile = 64u; // strays that a group has in hand
+// Strays lie in the cells of a grid, each in that of its centre; cells of one hash share a list.
+const uint k_cells = 1024u;
+const uint k_most_cells = 64u; // that a body looks at: a larger one looks at all strays
 
 shared uint stray_count; // 0 where there is nothing to do
-shared uint stray_bodies[k_tile];
-shared OrientedBox stray_boxes[k_tile];
-shared Aabb stray_aabbs[k_tile];
+shared uint largest_extent; // of a stray's box, m: the bits of a float
+shared Aabb stray_aabbs[k_most_strays];
+shared uint first_of_cell[k_cells]; // a stray's place
+shared uint next_of_cell[k_most_strays];
 
 void note_known(Pair pair)
 {
@@ -51,13 +54,75 @@ void note_near(Pair pair)
         counters[k_counter_search_count] = parameters.body_count;
 }
 
-void take_tile(uint first)
+float inverse_cell() { return 0.5 / uintBitsToFloat(largest_extent); }
+
+ivec3 cell_at(vec3 place) { return ivec3(floor(clamp(place * inverse_cell(), vec3(-1.0e9), vec3(1.0e9)))); }
+
+ivec3 cell_of_stray(uint i) { return cell_at(0.5 * (stray_aabbs[i].lower + stray_aabbs[i].upper)); }
+
+uint list_of(ivec3 cell)
 {
-    uint place = first + gl_LocalInvocationID.x;
-    if (place >= stray_count) return;
-    stray_bodies[gl_LocalInvocationID.x] = strays[place];
-    stray_boxes[gl_LocalInvocationID.x] = box_with_skin(strays[place]);
-    stray_aabbs[gl_LocalInvocationID.x] = compute_aabb(stray_boxes[gl_LocalInvocationID.x]);
+    uvec3 c = uvec3(cell) * uvec3(73856093u, 19349663u, 83492791u); // Teschner et al., "Optimized Spatial Hashing" (2003)
+    return (c.x ^ c.y ^ c.z) % k_cells;
+}
+
+void put_strays_into_cells()
+{
+    uint me = gl_LocalInvocationID.x;
+    if (me == 0u) largest_extent = floatBitsToUint(1.0e-3);
+    for (uint i = me; i < k_cells; i += gl_WorkGroupSize.x)
+        first_of_cell[i] = k_none;
+    barrier();
+    for (uint i = me; i < stray_count; i += gl_WorkGroupSize.x) {
+        stray_aabbs[i] = compute_aabb(box_with_skin(strays[i]));
+        vec3 extent = stray_aabbs[i].upper - stray_aabbs[i].lower;
+        atomicMax(largest_extent, floatBitsToUint(max(max(extent.x, extent.y), max(extent.z, 0.0))));
+    }
+    barrier();
+    for (uint i = me; i < stray_count; i += gl_WorkGroupSize.x)
+        next_of_cell[i] = atomicExchange(first_of_cell[list_of(cell_of_stray(i))], i);
+    barrier();
+}
+
+OrientedBox box_of(uint body, bool strays_too)
+{
+    if (strays_too) return box_with_skin(body);
+    return unpack(oriented_boxes[body]);
+}
+
+void look_at_stray(uint i, uint body, bool strays_too, Aabb box)
+{
+    uint stray = strays[i];
+    bool is_its_turn = !strays_too || body > stray;
+    if (is_its_turn && is_candidate(stray_aabbs[i], box) && !faces_part(box_with_skin(stray), box_of(body, strays_too)))
+        note_near(make_pair(stray, body));
+}
+
+void find_near(uint body)
+{
+    bool strays_too = stray_marks[body] != 0u;
+    Aabb box;
+    if (strays_too)
+        box = compute_aabb(box_of(body, true));
+    else
+        box = unpack(aabbs[body]);
+    // A stray whose box touches this one has its centre no farther from it than half its extent, and what is rounded.
+    vec3 size = max(abs(box.lower), abs(box.upper));
+    float farthest = max(max(size.x, size.y), size.z);
+    float reach = 0.51 * uintBitsToFloat(largest_extent) + 1.0e-5 * farthest;
+    ivec3 first = cell_at(box.lower - reach);
+    vec3 counts = vec3(cell_at(box.upper + reach) - first) + 1.0;
+    if (!(counts.x * counts.y * counts.z <= float(k_most_cells))) {
+        for (uint i = 0u; i < stray_count; ++i)
+            look_at_stray(i, body, strays_too, box);
+        return;
+    }
+    uvec3 cells = uvec3(max(counts, vec3(0.0)));
+    for (uint c = 0u; c < cells.x * cells.y * cells.z; ++c) {
+        ivec3 cell = first + ivec3(c % cells.x, c / cells.x % cells.y, c / (cells.x * cells.y));
+        for (uint i = first_of_cell[list_of(cell)]; i != k_none; i = next_of_cell[i])
+            if (cell_of_stray(i) == cell) look_at_stray(i, body, strays_too, box);
+    }
 }
 
 void main()
@@ -66,33 +131,10 @@ void main()
         stray_count = counters[k_counter_search_count] == 0u ? counters[k_counter_stray_count] : 0u;
     barrier();
     if (stray_count == 0u) return;
+    bool has_bodies = group_index() * gl_WorkGroupSize.x < parameters.body_count;
+    if (has_bodies) put_strays_into_cells();
     uint item = item_index();
-    bool is_body = item < parameters.body_count;
-    bool strays_too = is_body && stray_marks[item] != 0u;
-    OrientedBox oriented;
-    Aabb box;
-    if (is_body) {
-        if (strays_too)
-            oriented = box_with_skin(item);
-        else
-            oriented = unpack(oriented_boxes[item]);
-        if (strays_too)
-            box = compute_aabb(oriented);
-        else
-            box = unpack(aabbs[item]);
-    }
-    for (uint first = 0u; first < stray_count; first += k_tile) {
-        take_tile(first);
-        barrier();
-        uint in_hand = is_body ? min(stray_count - first, k_tile) : 0u;
-        for (uint i = 0u; i < in_hand; ++i) {
-            uint stray = stray_bodies[i];
-            bool is_its_turn = !strays_too || item > stray;
-            if (is_its_turn && is_candidate(stray_aabbs[i], box) && !faces_part(stray_boxes[i], oriented))
-                note_near(make_pair(stray, item));
-        }
-        barrier();
-    }
+    if (item < parameters.body_count) find_near(item);
     if (item >= counters[k_counter_pair_demand]) return;
     if (stray_marks[pairs[item].body_a] != 0u || stray_marks[pairs[item].body_b] != 0u) note_known(pairs[item]);
 }

@@ -51,6 +51,6 @@ static void search_strays_on_cpu(CpuState& state, const Launch&) {
     });
 }
 
-const Kernel search_strays{"broad_phase/search_strays", search_strays_on_cpu};
+const Kernel search_strays{"broad_phase/search_strays", search_strays_on_cpu, 256};
 
 } // namespace talus::engine

@@ -55,7 +55,8 @@ void main()
     BodyPose pose = unpack(poses[body]);
     starts[body] = pack(start_at(pose));
     if (is_asleep(pose)) {
-        if (args.x == 1u && (island_fill[body] & k_pressed) != 0u && !is_in_balance(body))
+        bool is_weighed = args.x == 1u && (island_fill[body] & k_pressed) != 0u && (pose.flags & k_body_frozen) == 0u;
+        if (is_weighed && !is_in_balance(body))
             rests[body] = pack(with_calm(unpack(rests[body]), 0u));
         return;
     }

@@ -29,8 +29,8 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
         BodyPose& pose = state.poses[body];
         state.starts[body] = start_at(pose);
         if (is_asleep(pose)) {
-            if (is_noted(body, k_pressed) && !is_in_balance(state, body))
-                state.rests[body] = with_calm(state.rests[body], 0);
+            const bool is_weighed = is_noted(body, k_pressed) && (pose.flags & k_body_frozen) == 0;
+            if (is_weighed && !is_in_balance(state, body)) state.rests[body] = with_calm(state.rests[body], 0);
             return;
         }
         const bool moves = is_mover(state.shapes[body]);

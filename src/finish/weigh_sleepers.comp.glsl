@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a pair: what its contact does to a sleeper that something awake touches.
+// One invocation is a pair that the constraint graph is made of, as are all of a sleeper that something awake touches: what its contact
+// does to that.
 // Launched in large worlds in which bodies may sleep.
-// Reads: Counters, Manifolds, IslandFill, Shapes; of the contacts of such a sleeper PointImpulses, ManifoldPoints, PointSeparations,
+// Reads: Counters, ManifoldOrder, Manifolds, IslandFill, Shapes; of the contacts of such a sleeper PointImpulses, ManifoldPoints, PointSeparations,
 // Poses and Properties.
 // Writes: Balances.
 // Needs: a barrier after store_contact_impulses.
-// Overflow: none; launched empty after a step that did not fit, and does nothing after one that went wrong.
+// Overflow: none; does nothing after a step that did not fit.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "resolution/sleep.shared.glsl"
@@ -18,6 +19,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer IslandFill { uint island_fill[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
@@ -33,10 +35,8 @@ void add(uint body, uint word, float speed) { atomicAdd(balances[k_balance_words
 void add_push(uint body, Push push)
 {
     float inverse_mass = unpack(properties[body]).inverse_mass;
-    float reach = reach_of(unpack(shapes[body]));
     vec3 impulse = scale3(push.impulse, inverse_mass);
-    precise float of_moment = inverse_mass * reciprocal(reach);
-    vec3 moment = scale3(push.moment, of_moment);
+    vec3 moment = scale3(push.moment, speed_by_moment(unpack(properties[body]), unpack(shapes[body])));
     precise float load = push.size * inverse_mass;
     for (uint i = 0u; i < 3u; ++i) {
         add(body, k_balance_impulse + i, impulse[i]);
@@ -45,12 +45,13 @@ void add_push(uint body, Push push)
     add(body, k_balance_load, load);
 }
 
-bool is_weighed(uint body) { return (island_fill[body] & k_pressed) != 0u && is_movable(unpack(shapes[body])); }
+bool is_weighed(uint body) { return (island_fill[body] & k_pressed) != 0u; }
 
 void main()
 {
-    uint pair = item_index();
-    if (pair >= counters[k_counter_pair_count] || (counters[k_counter_did_not_fit] & k_fit_groups) != 0u) return;
+    uint entry = item_index();
+    if (entry >= counters[k_counter_graph_pairs] || counters[k_counter_did_not_fit] != 0u) return;
+    uint pair = manifold_order[entry];
     Manifold manifold = unpack(manifolds[pair]);
     if (!is_active(manifold)) return;
     bool weighs_a = is_weighed(manifold.body_a);

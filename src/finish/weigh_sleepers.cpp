@@ -10,9 +10,9 @@ namespace talus::engine {
 namespace {
 
 void add_push(CpuState& state, uint body, const Push& push) {
-    const float inverse_mass = state.properties[body].inverse_mass, reach = reach_of(state.shapes[body]);
+    const float inverse_mass = state.properties[body].inverse_mass;
     const vec3 impulse = scale3(push.impulse, inverse_mass);
-    const vec3 moment = scale3(push.moment, inverse_mass * reciprocal(reach));
+    const vec3 moment = scale3(push.moment, speed_by_moment(state.properties[body], state.shapes[body]));
     uint* const words = &state.balances[std::size_t{k_balance_words} * body];
     const auto add = [&](uint word, float speed) {
         std::atomic_ref(words[word]).fetch_add(balance_word(speed), std::memory_order_relaxed);
@@ -25,10 +25,10 @@ void add_push(CpuState& state, uint body, const Push& push) {
 }
 
 void weigh_sleepers_on_cpu(CpuState& state, const Launch&) {
-    const auto is_weighed = [&](uint body) {
-        return (state.island_fill[body] & k_pressed) != 0 && is_movable(state.shapes[body]);
-    };
-    state.parallel(state.counters[k_counter_pair_count], [&](uint pair) {
+    if (state.counters[k_counter_did_not_fit] != 0) return;
+    const auto is_weighed = [&](uint body) { return (state.island_fill[body] & k_pressed) != 0; };
+    state.parallel(state.counters[k_counter_graph_pairs], [&](uint entry) {
+        const uint pair = state.manifold_order[entry];
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
         if (!is_active(manifold) || !(is_weighed(a) || is_weighed(b))) return;

@@ -8,7 +8,7 @@
 namespace talus::engine {
 
 static void clear_pair_table_on_cpu(CpuState& state, const Launch&) {
-    std::fill_n(state.pair_table.data, state.parameters.table_size, k_none);
+    std::fill_n(state.pair_table.data, state.dispatches[k_dispatch_table].items, k_none);
 }
 
 const Kernel clear_pair_table{"narrow_phase/clear_pair_table", clear_pair_table_on_cpu};

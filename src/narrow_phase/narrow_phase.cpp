@@ -6,13 +6,13 @@
 
 namespace talus::engine {
 
-void index_old_manifolds(Device& device, const StepPlan& plan) {
-    device.run({.kernel = clear_pair_table, .items = plan.table_size});
+void index_old_manifolds(Device& device) {
+    device.run({.kernel = clear_pair_table, .slot = k_dispatch_table});
     device.run({.kernel = fill_pair_table, .slot = k_dispatch_old_pairs});
 }
 
 void narrow_phase(Device& device, const StepPlan& plan) {
-    if (plan.search == Search::All || plan.watch != ContactWatch::None) index_old_manifolds(device, plan);
+    if (plan.search == Search::All || plan.watch != ContactWatch::None) index_old_manifolds(device);
     device.run({.kernel = collide_pairs, .slot = k_dispatch_pairs});
 }
 

@@ -12,7 +12,7 @@ struct StepPlan;
 /// Fills Manifolds, PointSeparations and PointImpulses, one a pair, and ManifoldPoints, four.
 void narrow_phase(Device&, const StepPlan&);
 /// Fills PairTable from OldManifolds, which narrow_phase does too.
-void index_old_manifolds(Device&, const StepPlan&);
+void index_old_manifolds(Device&);
 
 extern const Kernel clear_pair_table;
 extern const Kernel fill_pair_table;

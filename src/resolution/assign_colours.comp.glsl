@@ -4,8 +4,8 @@
 // of their manifolds, and the loads on them. As many groups as have manifolds wait for each other after each part of a
 // round; it is one where little is new. What has kept a colour far down is looked at first, and gives it up where it may find a
 // better one. Where all is new, it is coloured again.
-// args.x: 1 to count how many groups can run at a time instead.
-// Reads: Manifolds, Shapes.
+// args.x: 1 to count how many groups can run at a time instead. args.y: 1 where bodies may sleep that are in the graph.
+// Reads: Manifolds, Shapes; Substeps where bodies may sleep.
 // Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours, Uncoloured and Arrivals
 // as it goes.
 // Needs: a barrier after keep_colours; no more groups than can run at a time; arrivals[0] is 0.
@@ -20,6 +20,7 @@ layout(local_size_x = 1024) in;
 layout(std430) coherent buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { Manifold manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
+layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) coherent buffer BodyColours { uint body_colours[]; };
 layout(std430) coherent buffer Uncoloured { uint uncoloured[]; };
@@ -120,7 +121,8 @@ uint edges_of(uint body)
                        body_colours[body_word(body, k_new_edges)]);
 }
 
-bool makes_hub(uint body) { return is_hub(edges_of(body), parameters); }
+// A sleeper, whose contacts are not all listed, is none.
+bool makes_hub(uint body) { return is_hub(edges_of(body), parameters) && !(args.y == 1u && substeps[body] == 0u); }
 
 // Takes one off the list that keeps its colour after all.
 void look_at_kept(uint entry)
@@ -129,7 +131,7 @@ void look_at_kept(uint entry)
     Manifold manifold = manifolds[pair];
     uint edges_a = edges_of(manifold.body_a);
     uint edges_b = edges_of(manifold.body_b);
-    bool is_of_hub = is_hub(edges_a, parameters) || is_hub(edges_b, parameters);
+    bool is_of_hub = makes_hub(manifold.body_a) || makes_hub(manifold.body_b);
     if (!is_of_hub && gives_up(manifold.colour, edges_a, edges_b)) return;
     raise_counter(k_counter_colour_demand, colours_down_to(manifold.colour));
     uncoloured[entry] = k_none;

@@ -11,7 +11,7 @@
 
 namespace talus::engine {
 
-static void assign_colours_on_cpu(CpuState& state, const Launch&) {
+static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
     if (state.counters[k_counter_graph_bodies] == 0) return;
     struct Edge {
         uint rank;
@@ -23,7 +23,8 @@ static void assign_colours_on_cpu(CpuState& state, const Launch&) {
     const auto edges_of = [&](uint body) {
         return count_edges(word_of(body, k_used_low), word_of(body, k_used_high), word_of(body, k_new_edges));
     };
-    const auto makes_hub = [&](uint body) { return is_hub(edges_of(body), state.parameters); };
+    const auto is_sleeper = [&](uint body) { return launch.args[1] == 1 && state.substeps[body] == 0; };
+    const auto makes_hub = [&](uint body) { return is_hub(edges_of(body), state.parameters) && !is_sleeper(body); };
     const auto keeps_colour_after_all = [&](const Manifold& manifold) {
         const bool is_of_hub = makes_hub(manifold.body_a) || makes_hub(manifold.body_b);
         return is_of_hub || !gives_up(manifold.colour, edges_of(manifold.body_a), edges_of(manifold.body_b));

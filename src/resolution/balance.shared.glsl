@@ -7,12 +7,13 @@
 // In Balances each body has k_balance_words.
 
 const uint k_balance_impulse = 0u;            // three words: impulses over the mass
-const uint k_balance_moment = 3u;             // three words: moments over the mass and the reach
+const uint k_balance_moment = 3u;             // three words: moments times speed_by_moment
 const uint k_balance_load = 6u;               // sizes of the impulses over the mass
 const uint k_balance_words = 7u;
-const float k_balance_unit = 0.0001220703125f; // m/s
-const float k_most_balance = 33554432.0f;      // units that a contact adds at most: sixty of them fit into a word
-const float k_share_of_load = 0.125f;          // of the load on a body, by which it may be out of balance
+const float k_balance_unit = 0.000030517578125f; // m/s
+const float k_most_balance = 33554432.0f;        // units that a contact adds at most: sixty of them fit into a word
+const float k_share_of_load = 0.125f;            // of the load on a body, by which it may be out of balance
+const float k_rounded = 16.0f * k_balance_unit;  // m/s: what may be lost in whole numbers
 
 // What a contact does to one of its bodies in a step.
 struct Push {
@@ -54,8 +55,13 @@ inline Push push_of_contact(Manifold manifold, vec4 normal_impulses, vec3 anchor
     return add_to_push(push, friction, middle);
 }
 
-// How far a point of the body is from its centre, at most.
-inline float reach_of(BodyShape shape) { return is_sphere(shape) ? shape.half_extents.x : length3(shape.half_extents); }
+// By how much a moment changes the speed of a body's farthest point, at most (1/(kg m)).
+inline float speed_by_moment(BodyProperties body, BodyShape shape)
+{
+    float reach = is_sphere(shape) ? shape.half_extents.x : length3(shape.half_extents);
+    precise float speed = reach * max(max(body.inverse_inertia.x, body.inverse_inertia.y), body.inverse_inertia.z);
+    return speed;
+}
 
 // m/s in whole units, as a word.
 inline uint balance_word(float speed)
@@ -70,14 +76,14 @@ inline float speed_of_balance(uint word)
     return speed;
 }
 
-// `impulses`, `moments`, `load`: sums of all contacts.
+// `impulses`, `moments`, `load`: sums of all contacts. What is left is a change of speed, of the centre and of the
+// farthest point.
 inline bool is_balanced(vec3 impulses, vec3 moments, float load, float gravity_scale, Parameters p)
 {
     precise vec3 weight = p.gravity * (gravity_scale * p.dt);
     precise vec3 left = impulses + weight;
     precise float carried = 0.5f * (load + length3(weight));
     precise float of_load = k_share_of_load * carried;
-    precise float of_rest = p.rest_way * p.inv_dt; // what goes no faster may rest
-    float most = max(of_load, of_rest);
+    float most = max(of_load, k_rounded);
     return length3(left) <= most && length3(moments) <= most;
 }

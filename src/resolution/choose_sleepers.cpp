@@ -12,10 +12,8 @@ static void choose_sleepers_on_cpu(CpuState& state, const Launch& launch) {
         const uint island = state.islands[body];
         if (island == k_none) return;
         bool asleep = (state.island_fill[island] & k_awake) == 0;
-        const bool may_sleep_alone =
-            sleeps_in_parts(state.island_sizes[island]) && state.body_colours[body_word(body, k_hub_word)] == 0;
-        if (!asleep && may_sleep_alone && (state.island_fill[body] & (k_restless | k_touched)) == 0)
-            asleep = is_calm(state.rests[body], p);
+        if (sleeps_in_parts(state.island_sizes[island]))
+            asleep = (state.island_fill[body] & (k_restless | k_touched)) == 0 && is_calm(state.rests[body], p);
         const bool multirate = is_multirate_island(state.island_sizes[island], launch.args[0]);
         const uint substeps = multirate ? k_multirate | state.substeps[body] : state.substeps[island];
         state.island_groups[body] = asleep ? 0 : substeps;

@@ -34,10 +34,11 @@ const uint k_awake = 0x20000000u;
 const uint k_pressed = 0x10000000u;
 const uint k_fill_count = 0x0fffffffu;
 
-// What join_islands notes besides.
-const uint k_notes_nothing = 0u;
-const uint k_notes_touched = 1u;
-const uint k_notes_pressed = 2u; // islands are of what is awake
+// What join_islands joins: all that contacts can push; the same, and it notes what restless bodies touch; or what is awake, of which it
+// is known already what it asks for.
+const uint k_join_all = 0u;
+const uint k_join_to_sleep = 1u;
+const uint k_join_awake = 2u;
 
 // Whether what rests in an island may sleep while other parts of it move: a small one is solved as a whole, and at once.
 inline bool sleeps_in_parts(uint word) { return island_size(word) > k_most_single; }

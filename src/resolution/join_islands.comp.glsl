@@ -2,10 +2,9 @@
 // One invocation is a pair: joins the islands of two bodies that touch, by hanging one root below the other
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
 // sub-steps of the manifold that asks for most.
-// args.x: k_notes_touched where it is not known yet who sleeps; k_notes_pressed where sleepers are part of no island, and it is known what
-// all others ask for.
-// Reads: Counters, Manifolds.
-// Writes: Islands; Substeps; IslandSizes, that a column is tall; IslandFill, what it notes.
+// args.x: k_join_*. The awake ones are those of listed pairs.
+// Reads: Counters, Manifolds; ManifoldOrder, the list.
+// Writes: Islands; Substeps; IslandSizes, that a column is tall; IslandFill, what is touched.
 // Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_graph.
 // Overflow: none.
@@ -16,6 +15,7 @@
 
 layout(local_size_x = 64) in;
 
+layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) coherent buffer Islands { uint islands[]; };
@@ -54,31 +54,28 @@ void join(uint body_a, uint body_b)
 }
 
 // Others may note the same.
-void note(uint body, uint what)
+void note_touched(uint body)
 {
-    if ((island_fill[body] & what) == 0u) atomicOr(island_fill[body], what);
+    if ((island_fill[body] & k_touched) == 0u) atomicOr(island_fill[body], k_touched);
 }
 
 void main()
 {
-    uint pair = item_index();
-    if (pair >= counters[k_counter_graph_pairs]) return;
+    uint entry = item_index();
+    if (entry >= counters[k_counter_graph_pairs]) return;
+    uint pair = args.x == k_join_awake ? manifold_order[entry] : entry;
     Manifold manifold = unpack(manifolds[pair]);
     if (!is_active(manifold)) return;
     bool pushes_a = islands[manifold.body_a] != k_none;
     bool pushes_b = islands[manifold.body_b] != k_none;
-    if (args.x == k_notes_touched) {
-        if ((island_fill[manifold.body_a] & k_restless) != 0u) note(manifold.body_b, k_touched);
-        if ((island_fill[manifold.body_b] & k_restless) != 0u) note(manifold.body_a, k_touched);
+    if (args.x == k_join_to_sleep) {
+        if ((island_fill[manifold.body_a] & k_restless) != 0u) note_touched(manifold.body_b);
+        if ((island_fill[manifold.body_b] & k_restless) != 0u) note_touched(manifold.body_a);
     }
-    if (args.x != k_notes_pressed) {
+    if (args.x != k_join_awake) {
         if (pushes_a) atomicMax(substeps[manifold.body_a], substeps_of(manifold.demand));
         if (pushes_b) atomicMax(substeps[manifold.body_b], substeps_of(manifold.demand));
         if (pushes_a && pushes_b && tallness(manifold.demand) == 1u) island_sizes[manifold.body_a] = k_tall;
     }
-    if (pushes_a && pushes_b) {
-        join(manifold.body_a, manifold.body_b);
-    } else if (args.x == k_notes_pressed && pushes_a != pushes_b) {
-        note(pushes_a ? manifold.body_b : manifold.body_a, k_pressed);
-    }
+    if (pushes_a && pushes_b) join(manifold.body_a, manifold.body_b);
 }

@@ -10,24 +10,22 @@ namespace talus::engine {
 static void join_islands_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& islands = state.islands;
     Array<uint>& fill = state.island_fill;
-    for (uint pair = 0; pair < state.counters[k_counter_graph_pairs]; ++pair) {
+    for (uint entry = 0; entry < state.counters[k_counter_graph_pairs]; ++entry) {
+        const uint pair = launch.args[0] == k_join_awake ? state.manifold_order[entry] : entry;
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
         if (!is_active(manifold)) continue;
         const bool pushes_a = islands[a] != k_none, pushes_b = islands[b] != k_none;
-        if (launch.args[0] == k_notes_touched) {
+        if (launch.args[0] == k_join_to_sleep) {
             if ((fill[a] & k_restless) != 0) fill[b] |= k_touched;
             if ((fill[b] & k_restless) != 0) fill[a] |= k_touched;
         }
-        if (launch.args[0] != k_notes_pressed) {
+        if (launch.args[0] != k_join_awake) {
             if (pushes_a) state.substeps[a] = max(state.substeps[a], substeps_of(manifold.demand));
             if (pushes_b) state.substeps[b] = max(state.substeps[b], substeps_of(manifold.demand));
             if (pushes_a && pushes_b && tallness(manifold.demand) == 1) state.island_sizes[a] = k_tall;
         }
-        if (pushes_a && pushes_b)
-            join_islands_of(islands, a, b, order_of_root);
-        else if (launch.args[0] == k_notes_pressed && pushes_a != pushes_b)
-            fill[pushes_a ? b : a] |= k_pressed;
+        if (pushes_a && pushes_b) join_islands_of(islands, a, b, order_of_root);
     }
 }
 

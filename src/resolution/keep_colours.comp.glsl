@@ -3,7 +3,8 @@
 // is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's. One
 // that has kept a colour far down is listed too: assign_colours sees whether it needs that, and counts it.
 // Also counts manifolds and contact points, each group its own first.
-// Reads: Manifolds, PointImpulses, Shapes.
+// args.x: 1 where ManifoldOrder lists the pairs that the graph is made of (list_awake_pairs).
+// Reads: Manifolds, PointImpulses, Shapes; Islands, of listed pairs.
 // Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
 // Counters. The order of the list depends on who comes first; nothing that is made from it does.
 // Needs: a barrier after begin_graph.
@@ -19,7 +20,8 @@ layout(local_size_x = 256) in; // k_count_group
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) writeonly buffer ManifoldKeys { uint manifold_keys[]; };
-layout(std430) writeonly buffer ManifoldOrder { uint manifold_order[]; };
+layout(std430) readonly buffer Islands { uint islands[]; };
+layout(std430) buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) buffer BodyColours { uint body_colours[]; };
 layout(std430) writeonly buffer Uncoloured { uint uncoloured[]; };
 layout(std430) buffer Counters { uint counters[]; };
@@ -44,11 +46,25 @@ void want_colour(uint body)
     if (is_movable(shapes[body])) atomicAdd(body_colours[body_word(body, k_new_edges)], 1u);
 }
 
+// Between two sleepers, of which something awake touches one: its colour is in use, and it keeps it whatever that is.
+bool is_between_sleepers(Manifold manifold)
+{
+    return args.x == 1u && islands[manifold.body_a] == k_none && islands[manifold.body_b] == k_none;
+}
+
 void keep_colour(uint pair)
 {
     Manifold manifold = unpack(manifolds[pair]);
     uint colour = k_inactive_colour;
-    if (is_active(manifold)) {
+    if (is_active(manifold) && is_between_sleepers(manifold)) {
+        atomicAdd(manifold_count, 1u);
+        atomicAdd(contact_count, manifold.point_count);
+        colour = manifold.colour;
+        if (is_kept(colour, false, parameters.usable_colours)) {
+            use_colour(manifold.body_a, colour);
+            use_colour(manifold.body_b, colour);
+        }
+    } else if (is_active(manifold)) {
         atomicAdd(manifold_count, 1u);
         atomicAdd(contact_count, manifold.point_count);
         atomicMax(substep_demand, substeps_of(manifold.demand));
@@ -69,7 +85,7 @@ void keep_colour(uint pair)
         }
     }
     manifold_keys[pair] = colour;
-    manifold_order[pair] = pair;
+    if (args.x == 0u) manifold_order[pair] = pair;
 }
 
 void main()
@@ -82,8 +98,8 @@ void main()
         colour_demand = 0u;
     }
     barrier();
-    uint pair = item_index();
-    if (pair < counters[k_counter_graph_pairs]) keep_colour(pair);
+    uint entry = item_index();
+    if (entry < counters[k_counter_graph_pairs]) keep_colour(args.x == 1u ? manifold_order[entry] : entry);
     barrier();
     if (!is_first || manifold_count == 0u) return;
     atomicAdd(counters[k_counter_manifold_count], manifold_count);

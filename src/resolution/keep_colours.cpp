@@ -7,7 +7,8 @@
 
 namespace talus::engine {
 
-static void keep_colours_on_cpu(CpuState& state, const Launch&) {
+static void keep_colours_on_cpu(CpuState& state, const Launch& launch) {
+    const bool is_listed = launch.args[0] == 1;
     const auto use_colour = [&](uint body, uint colour) {
         if (!is_movable(state.shapes[body])) return;
         state.body_colours[body_word(body, used_word(colour))] |= used_bit(colour);
@@ -15,10 +16,22 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
     const auto want_colour = [&](uint body) {
         if (is_movable(state.shapes[body])) ++state.body_colours[body_word(body, k_new_edges)];
     };
-    for (uint pair = 0; pair < state.counters[k_counter_graph_pairs]; ++pair) {
+    const auto is_between_sleepers = [&](const Manifold& manifold) {
+        return is_listed && state.islands[manifold.body_a] == k_none && state.islands[manifold.body_b] == k_none;
+    };
+    for (uint entry = 0; entry < state.counters[k_counter_graph_pairs]; ++entry) {
+        const uint pair = is_listed ? state.manifold_order[entry] : entry;
         const Manifold& manifold = state.manifolds[pair];
         uint colour = k_inactive_colour;
-        if (is_active(manifold)) {
+        if (is_active(manifold) && is_between_sleepers(manifold)) { // keeps its colour whatever that is
+            ++state.counters[k_counter_manifold_count];
+            state.counters[k_counter_contact_count] += manifold.point_count;
+            colour = manifold.colour;
+            if (is_kept(colour, false, state.parameters.usable_colours)) {
+                use_colour(manifold.body_a, colour);
+                use_colour(manifold.body_b, colour);
+            }
+        } else if (is_active(manifold)) {
             ++state.counters[k_counter_manifold_count];
             state.counters[k_counter_contact_count] += manifold.point_count;
             state.counters[k_counter_substep_demand] =
@@ -42,7 +55,7 @@ static void keep_colours_on_cpu(CpuState& state, const Launch&) {
             }
         }
         state.manifold_keys[pair] = colour;
-        state.manifold_order[pair] = pair;
+        if (!is_listed) state.manifold_order[pair] = pair;
     }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: its manifold's place in the order of the solve, by group and then by colour. One between
 // sleepers comes last, as those that do not touch.
-// Reads: IslandGroups, Islands, Manifolds.
-// Writes: ManifoldKeys, in which it finds the colour; Counters, what needs launches and what sleeps; Manifolds, the colour
+// args.x: 1 where ManifoldOrder lists the pairs that the graph is made of.
+// Reads: IslandGroups, Islands, Manifolds; ManifoldKeys, the colour of each pair.
+// Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs launches and what sleeps; Manifolds, the colour
 // of what sleeps.
 // Needs: a barrier after group_islands.
 // Overflow: none.
@@ -14,30 +15,33 @@ layout(local_size_x = 64) in;
 layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
+layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
+layout(std430) buffer Keys { uint keys[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
 #include "resolution/raise_counter.glsl"
 
 void main()
 {
-    uint pair = item_index();
-    if (pair >= counters[k_counter_graph_pairs]) return;
+    uint entry = item_index();
+    if (entry >= counters[k_counter_graph_pairs]) return;
+    uint pair = args.x == 1u ? manifold_order[entry] : entry;
     uint colour = manifold_keys[pair];
     if (colour == k_inactive_colour) {
-        manifold_keys[pair] = inactive_key(parameters.body_count);
+        keys[entry] = inactive_key(parameters.body_count);
         return;
     }
     Manifold manifold = unpack(manifolds[pair]);
     uint body = islands[manifold.body_a] != k_none ? manifold.body_a : manifold.body_b;
     if (islands[body] == k_none) { // it wakes with the colour that it has
         if (manifold.colour != colour) manifolds[pair].cell_0.w = colour;
-        manifold_keys[pair] = inactive_key(parameters.body_count);
+        keys[entry] = inactive_key(parameters.body_count);
         atomicAdd(counters[k_counter_sleeping_manifolds], 1u);
         return;
     }
     uint group = group_number(island_groups[body]);
-    manifold_keys[pair] = manifold_key(group, colour);
+    keys[entry] = manifold_key(group, colour);
     if (group != k_launched) return;
     if (colour < k_first_hub_colour) raise_counter(k_counter_launched_colours, colours_down_to(colour));
     if (colour == k_overflow_colour) atomicAdd(counters[k_counter_launched_overflow], 1u);

@@ -6,10 +6,12 @@
 
 namespace talus::engine {
 
-static void key_manifolds_on_cpu(CpuState& state, const Launch&) {
-    for (uint pair = 0; pair < state.counters[k_counter_graph_pairs]; ++pair) {
-        uint& key = state.manifold_keys[pair];
-        const uint colour = key;
+static void key_manifolds_on_cpu(CpuState& state, const Launch& launch) {
+    const Array<uint> keys = state.words(launch.bound("Keys"));
+    for (uint entry = 0; entry < state.counters[k_counter_graph_pairs]; ++entry) {
+        const uint pair = launch.args[0] == 1 ? state.manifold_order[entry] : entry;
+        uint& key = keys[entry];
+        const uint colour = state.manifold_keys[pair];
         if (colour == k_inactive_colour) {
             key = inactive_key(state.parameters.body_count);
             continue;

@@ -31,26 +31,37 @@ static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel
                     .overlaps_next = overlaps_next && plan.pair_capacity - first <= plan.near_pairs});
 }
 
-/// Finds islands of all that contacts can push, to know who sleeps; what is found behind it has islands of what is
-/// awake.
+/// Who sleeps, for which islands are found of all that contacts can push; and which pairs the graph is made of then:
+/// those of what is awake, and those of sleepers that something awake touches.
 static void choose_who_sleeps(Device& device, const StepPlan& plan) {
-    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {k_notes_touched}});
+    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {k_join_to_sleep}});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     device.run({.kernel = choose_sleepers, .items = plan.body_count, .args = {plan.multirate_from()}});
     device.run({.kernel = begin_awake, .items = plan.body_count});
+    device.run({.kernel = press_sleepers, .slot = k_dispatch_graph_pairs});
+    constexpr BufferId marks = BufferId::SortedManifoldKeys; // in which nothing lies before the sort
+    device.grow(marks, device.size(BufferId::ManifoldKeys));
+    device.run({.kernel = mark_awake_pairs, .slot = k_dispatch_graph_counts, .bindings = {{"Marks", marks}}});
+    exclusive_scan(device, marks, plan.pair_capacity, k_counter_graph_pairs, k_counter_listed_pairs);
+    device.run({.kernel = list_awake_pairs, .items = plan.pair_capacity, .bindings = {{"Marks", marks}}});
 }
 
 /// The islands of a large world, and which of them a work group solves.
 static void find_island_groups(Device& device, const StepPlan& plan) {
-    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan);
-    const uint noted = plan.sleeps_in_parts() ? k_notes_pressed : k_notes_nothing;
-    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {noted}});
+    const uint joined = plan.sleeps_in_parts() ? k_join_awake : k_join_all;
+    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {joined}});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_graph_bodies, k_none);
     device.run({.kernel = group_islands,
                 .items = plan.body_count,
                 .args = {plan.has_groups(), plan.singles, plan.multirate_from(), plan.sleeps_in_parts()}});
-    device.run({.kernel = key_manifolds, .slot = k_dispatch_graph_pairs});
+    // Of listed pairs the colours lie at the pairs, and the keys in the order of the list.
+    const BufferId keys = plan.sleeps_in_parts() ? BufferId::SortedManifoldKeys : BufferId::ManifoldKeys;
+    device.run({.kernel = key_manifolds,
+                .slot = k_dispatch_graph_pairs,
+                .args = {plan.sleeps_in_parts()},
+                .bindings = {{"Keys", keys}}});
+    if (plan.sleeps_in_parts()) device.swap(keys, BufferId::ManifoldKeys);
 }
 
 void wake(Device& device, const StepPlan& plan) {
@@ -72,9 +83,13 @@ static void make_graph(Device& device, const StepPlan& plan) {
     begin_sort(device, order);
     const bool measures_islands = plan.measures_islands();
     device.run({.kernel = begin_graph, .items = std::max(plan.body_count, 1u), .args = {measures_islands}});
-    device.run({.kernel = keep_colours, .slot = k_dispatch_graph_counts});
+    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan);
+    device.run({.kernel = keep_colours, .slot = k_dispatch_graph_counts, .args = {plan.sleeps_in_parts()}});
     // Colours and islands are found beside each other.
-    device.run({.kernel = assign_colours, .items = plan.colouring_groups, .overlaps_next = measures_islands});
+    device.run({.kernel = assign_colours,
+                .items = plan.colouring_groups,
+                .args = {0, plan.sleeps_in_parts()},
+                .overlaps_next = measures_islands});
     if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
     if (measures_islands) find_island_groups(device, plan);
     sort_by_key(device, order);

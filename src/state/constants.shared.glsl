@@ -107,7 +107,8 @@ const uint k_counter_added_pairs = 36u; // since the last search of all
 const uint k_counter_strayed = 37u;     // 1 where this step had to search, a few bodies or all
 const uint k_counter_wanted_pairs = 38u; // that the list would have with those of strays, where there is no room for them
 const uint k_counter_largest_island = 39u; // in a small world: manifolds of the island that has most
-const uint k_counter_words = 40u;
+const uint k_counter_listed_pairs = 40u; // of what the constraint graph is made where parts of islands sleep
+const uint k_counter_words = 41u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -155,7 +156,8 @@ const uint k_dispatch_report_ends = k_dispatch_reports + 1u; // groups of 64 pai
 const uint k_dispatch_graph_pairs = k_dispatch_report_ends + 1u; // groups of 64 pairs, where a constraint graph is made
 const uint k_dispatch_graph_tiles = k_dispatch_graph_pairs + 1u; // sort tiles of them
 const uint k_dispatch_graph_counts = k_dispatch_graph_tiles + 1u; // groups of k_count_group of them
-const uint k_dispatch_count = k_dispatch_graph_counts + 1u;
+const uint k_dispatch_table = k_dispatch_graph_counts + 1u; // groups of 64 slots of PairTable, where pairs have to be looked up
+const uint k_dispatch_count = k_dispatch_table + 1u;
 
 const uint k_block_records = 32u; // see device/gl/record_blocks.h
 const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each
