@@ -66,7 +66,8 @@ struct Settings {
     std::uint32_t hub_contacts = 0; ///< a body with more is solved by shares of its mass: fast, and softer; 0: more
                                     ///< than 1,000 in a world of up to 1,024 body slots, more than 32 in a larger one
     float sleep_speed = 0.01f;      ///< m/s; a body rests where it gets nowhere faster on average, though it may jitter
-    float sleep_time = 0.5f;        ///< s; an island sleeps once all its bodies have rested for so long
+    float sleep_time = 0.5f;        ///< s; an island sleeps once all its bodies have rested for so long; of one of more
+                                    ///< than 1,024 a body, once it has and nothing restless has touched it for as long
     bool sleeping = false; ///< whether islands at rest, and parts of very large ones, sleep until something touches
                            ///< them: they cost next to nothing
 
