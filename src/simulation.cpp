@@ -371,6 +371,7 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     now.bounces = population.some_bounce;
     now.kinematic = population.some_kinematic;
     now.sleeping = settings.sleeping;
+    now.other_graph = settings.sleeping; // who sleeps is found anew in each step
     now.waking = settings.sleeping ? population.waking : Waking::None;
     if (settings.solve_order == SolveOrder::Sequential) now.overflow_count = k_none; // all
     now.overflow = now.overflow_count > 0;
@@ -453,7 +454,7 @@ void Simulation::enqueue(Pending entry) {
     const bool other_bodies = entry.population.slots != enqueued_slots;
     const bool strays = !pairs_last.holds(), all = !list_lasts.holds() || moves_bodies(entry.changes) || other_bodies;
     now.search = all ? Search::All : strays ? Search::Strays : Search::None;
-    now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || settings.sleeping ||
+    now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || now.other_graph ||
                       placement.hybrid() || !has_the_graph_of(now, newest_plan);
     now.makes_graph = now.other_graph || !graph_lasts.holds();
     if (now.awaits_kernels != newest_plan.awaits_kernels)

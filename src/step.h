@@ -77,7 +77,8 @@ struct StepPlan {
             most_substeps % least_substeps == 0 && std::has_single_bit(most_substeps / least_substeps);
         return !small && !one_island && !bounces && most_is_double && body_count >= least_multirate;
     }
-    /// Bodies from which on an island is multirate, where a hub counts as 1,025; k_none: none is.
+    /// Bodies from which on an island is multirate; k_none: none is. A hub counts as 1,025, unless parts of islands may
+    /// sleep, for which islands are found before hubs.
     uint multirate_from() const { return may_be_multirate() ? least_multirate : k_none; }
     /// What rests in a large island may sleep while other parts of it move.
     bool sleeps_in_parts() const { return sleeping && !small; }

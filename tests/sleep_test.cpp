@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <limits>
 
 #include "parameters.h"
 #include "parity.h"
@@ -581,6 +582,22 @@ TEST(Balance, of_a_contact_both_bodies_get_the_opposite) {
         << "the twist, and friction at the middle of the points";
 }
 
+TEST(Balance, a_moment_counts_by_what_it_turns) {
+    using namespace engine;
+    BodyProperties rod{};
+    rod.inverse_inertia = {6.0f, 0.03f, 0.03f}; // 1,000 kg, 20 m long and 1 m thick
+    const BodyShape box{{10.0f, 0.5f, 0.5f}, k_shape_box}, ball{{0.5f, 0.5f, 0.5f}, k_shape_sphere};
+    const vec4 unturned(0.0f, 0.0f, 0.0f, 1.0f), turned(0.0f, 0.0f, std::sqrt(0.5f), std::sqrt(0.5f)); // x to y
+    const auto speeds = [&](const vec3& moment, const vec4& rotation) {
+        return speeds_by_moment(moment, rotation, rod, box);
+    };
+    EXPECT_NEAR(speeds({1.0f, 0.0f, 0.0f}, unturned).x, 6.0f * std::sqrt(0.5f), 1e-5f) << "about its length";
+    EXPECT_NEAR(speeds({0.0f, 1.0f, 0.0f}, unturned).y, 0.03f * std::sqrt(100.25f), 1e-5f) << "across";
+    EXPECT_NEAR(speeds({0.0f, 1.0f, 0.0f}, turned).x, 6.0f * std::sqrt(0.5f), 1e-5f) << "about its length";
+    rod.inverse_inertia = vec3(10.0f);
+    EXPECT_NEAR(speeds_by_moment({0.0f, 0.0f, 2.0f}, unturned, rod, ball).z, 10.0f, 1e-5f);
+}
+
 TEST(Balance, ends_beyond_an_eighth_of_the_load) {
     using namespace engine;
     for (const float gravity : {9.81f, 1.62f}) {
@@ -603,6 +620,7 @@ TEST(Balance, ends_beyond_an_eighth_of_the_load) {
     }
     EXPECT_EQ(speed_of_balance(balance_word(-0.125f)), -0.125f);
     EXPECT_EQ(balance_word(1e30f) + balance_word(-1e30f), 0u);
+    EXPECT_EQ(balance_word(std::numeric_limits<float>::quiet_NaN()), balance_word(1e30f));
 }
 
 /// On the CPU: all devices give the same bits.

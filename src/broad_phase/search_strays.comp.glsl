@@ -112,7 +112,8 @@ void find_near(uint body)
     float reach = 0.51 * uintBitsToFloat(largest_extent) + 1.0e-5 * farthest;
     ivec3 first = cell_at(box.lower - reach);
     vec3 counts = vec3(cell_at(box.upper + reach) - first) + 1.0;
-    if (!(counts.x * counts.y * counts.z <= float(k_most_cells))) {
+    bool looks_at_all = !(counts.x * counts.y * counts.z <= float(k_most_cells)) || !is_finite(uintBitsToFloat(largest_extent));
+    if (looks_at_all) {
         for (uint i = 0u; i < stray_count; ++i)
             look_at_stray(i, body, strays_too, box);
         return;

@@ -66,6 +66,8 @@ void main()
     pose.flags &= ~k_body_disturbed;
     if (!moves || (pose.flags & k_body_frozen) != 0u) {
         if (disturbed) poses[body] = pack(pose);
+        bool may_sleep = args.x == 1u && is_movable(unpack(shapes[body])); // what is frozen rests
+        if (may_sleep) rests[body] = pack(with_calm(unpack(rests[body]), parameters.rest_steps));
         return;
     }
     BodyPose moved = apply_delta(pose, unpack(deltas[body]));

@@ -36,7 +36,11 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
         const bool moves = is_mover(state.shapes[body]);
         if (moves || (pose.flags & k_body_disturbed) != 0) state.loads[body] = no_load();
         pose.flags &= ~k_body_disturbed;
-        if (!moves || (pose.flags & k_body_frozen) != 0) return;
+        if (!moves || (pose.flags & k_body_frozen) != 0) {
+            const bool may_sleep = launch.args[0] == 1 && is_movable(state.shapes[body]); // what is frozen rests
+            if (may_sleep) state.rests[body] = with_calm(state.rests[body], p.rest_steps);
+            return;
+        }
         BodyPose moved = apply_delta(pose, state.deltas[body]);
         const bool may_rest = p.rest_steps > 0 && is_movable(state.shapes[body]);
         if (may_rest) {

@@ -36,7 +36,7 @@ void add_push(uint body, Push push)
 {
     float inverse_mass = unpack(properties[body]).inverse_mass;
     vec3 impulse = scale3(push.impulse, inverse_mass);
-    vec3 moment = scale3(push.moment, speed_by_moment(unpack(properties[body]), unpack(shapes[body])));
+    vec3 moment = speeds_by_moment(push.moment, unpack(poses[body]).rotation, unpack(properties[body]), unpack(shapes[body]));
     precise float load = push.size * inverse_mass;
     for (uint i = 0u; i < 3u; ++i) {
         add(body, k_balance_impulse + i, impulse[i]);

@@ -12,7 +12,8 @@ namespace {
 void add_push(CpuState& state, uint body, const Push& push) {
     const float inverse_mass = state.properties[body].inverse_mass;
     const vec3 impulse = scale3(push.impulse, inverse_mass);
-    const vec3 moment = scale3(push.moment, speed_by_moment(state.properties[body], state.shapes[body]));
+    const vec3 moment =
+        speeds_by_moment(push.moment, state.poses[body].rotation, state.properties[body], state.shapes[body]);
     uint* const words = &state.balances[std::size_t{k_balance_words} * body];
     const auto add = [&](uint word, float speed) {
         std::atomic_ref(words[word]).fetch_add(balance_word(speed), std::memory_order_relaxed);

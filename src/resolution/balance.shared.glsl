@@ -7,7 +7,7 @@
 // In Balances each body has k_balance_words.
 
 const uint k_balance_impulse = 0u;            // three words: impulses over the mass
-const uint k_balance_moment = 3u;             // three words: moments times speed_by_moment
+const uint k_balance_moment = 3u;             // three words: speeds_by_moment
 const uint k_balance_load = 6u;               // sizes of the impulses over the mass
 const uint k_balance_words = 7u;
 const float k_balance_unit = 0.000030517578125f; // m/s
@@ -55,19 +55,21 @@ inline Push push_of_contact(Manifold manifold, vec4 normal_impulses, vec3 anchor
     return add_to_push(push, friction, middle);
 }
 
-// By how much a moment changes the speed of a body's farthest point, at most (1/(kg m)).
-inline float speed_by_moment(BodyProperties body, BodyShape shape)
+// How fast a moment (N m s) makes the points of a body go that are farthest from each of its own axes, m/s.
+inline vec3 speeds_by_moment(vec3 moment, vec4 rotation, BodyProperties body, BodyShape shape)
 {
-    float reach = is_sphere(shape) ? shape.half_extents.x : length3(shape.half_extents);
-    precise float speed = reach * max(max(body.inverse_inertia.x, body.inverse_inertia.y), body.inverse_inertia.z);
-    return speed;
+    vec3 h = shape.half_extents;
+    vec3 reach = vec3(length3(vec3(0.0f, h.y, h.z)), length3(vec3(h.x, 0.0f, h.z)), length3(vec3(h.x, h.y, 0.0f)));
+    if (is_sphere(shape)) reach = h;
+    return multiply3(multiply3(body.inverse_inertia, reach), rotate_back(rotation, moment));
 }
 
 // m/s in whole units, as a word.
 inline uint balance_word(float speed)
 {
     precise float units = speed / k_balance_unit;
-    return uint(int(clamp_to(units, -k_most_balance, k_most_balance)));
+    float most = is_finite(units) ? units : k_most_balance; // which is out of balance
+    return uint(int(clamp_to(most, -k_most_balance, k_most_balance)));
 }
 
 inline float speed_of_balance(uint word)
@@ -76,8 +78,8 @@ inline float speed_of_balance(uint word)
     return speed;
 }
 
-// `impulses`, `moments`, `load`: sums of all contacts. What is left is a change of speed, of the centre and of the
-// farthest point.
+// `impulses`, `moments`, `load`: sums of all contacts. What is left is a change of speed, of the centre and of what
+// is farthest from an axis of the body.
 inline bool is_balanced(vec3 impulses, vec3 moments, float load, float gravity_scale, Parameters p)
 {
     precise vec3 weight = p.gravity * (gravity_scale * p.dt);

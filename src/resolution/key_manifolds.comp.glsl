@@ -3,8 +3,7 @@
 // sleepers comes last, as those that do not touch.
 // args.x: 1 where ManifoldOrder lists the pairs that the graph is made of.
 // Reads: IslandGroups, Islands, Manifolds; ManifoldKeys, the colour of each pair.
-// Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs launches and what sleeps; Manifolds, the colour
-// of what sleeps.
+// Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs launches and what sleeps.
 // Needs: a barrier after group_islands.
 // Overflow: none.
 #include "resolution/colouring.shared.glsl"
@@ -12,7 +11,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
+layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
@@ -35,7 +34,6 @@ void main()
     Manifold manifold = unpack(manifolds[pair]);
     uint body = islands[manifold.body_a] != k_none ? manifold.body_a : manifold.body_b;
     if (islands[body] == k_none) { // it wakes with the colour that it has
-        if (manifold.colour != colour) manifolds[pair].cell_0.w = colour;
         keys[entry] = inactive_key(parameters.body_count);
         atomicAdd(counters[k_counter_sleeping_manifolds], 1u);
         return;

@@ -16,10 +16,9 @@ static void key_manifolds_on_cpu(CpuState& state, const Launch& launch) {
             key = inactive_key(state.parameters.body_count);
             continue;
         }
-        Manifold& manifold = state.manifolds[pair];
+        const Manifold& manifold = state.manifolds[pair];
         const uint body = state.islands[manifold.body_a] != k_none ? manifold.body_a : manifold.body_b;
         if (state.islands[body] == k_none) { // it wakes with the colour that it has
-            manifold.colour = colour;
             key = inactive_key(state.parameters.body_count);
             ++state.counters[k_counter_sleeping_manifolds];
             continue;

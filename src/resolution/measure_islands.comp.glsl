@@ -3,7 +3,7 @@
 // as it needs launches of its own.
 // Reads: Counters, BodyColours.
 // Writes: Islands; of the island IslandSizes, IslandStarts (its bodies) and Substeps; in IslandFill, that it is awake.
-// Needs: barriers after join_islands and assign_colours.
+// Needs: barriers after join_islands and assign_colours; where it is asked who sleeps, for which hubs do not count, after the first alone.
 // Overflow: none.
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "log.h"
 #include "primitives/primitives.h"
 #include "resolution/contact_passes.h"
 #include "state/formulas.h"
@@ -83,6 +84,7 @@ static void make_graph(Device& device, const StepPlan& plan) {
     begin_sort(device, order);
     const bool measures_islands = plan.measures_islands();
     device.run({.kernel = begin_graph, .items = std::max(plan.body_count, 1u), .args = {measures_islands}});
+    TALUS_ASSERT(!plan.sleeps_in_parts() || plan.other_graph, "who sleeps is found anew in each step");
     if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan);
     device.run({.kernel = keep_colours, .slot = k_dispatch_graph_counts, .args = {plan.sleeps_in_parts()}});
     // Colours and islands are found beside each other.
