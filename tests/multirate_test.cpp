@@ -110,7 +110,19 @@ TEST(Multirate, what_stands_on_a_corner_asks_for_more) {
     EXPECT_EQ(engine::yielding_of(engine::vec4(0.0f), of_face, 1e-3f), 1.0f) << "it carries nothing";
 }
 
-class MultirateIslands : public OnDevice {};
+class MultirateIslands : public OnDevice {
+protected:
+    /// Steps of one launch, of several numbers of groups, beside those of a launch a colour and pass on both devices.
+    static void step_in_all_ways(EngineRun& one, EngineRun& many, EngineRun& expected) {
+        for (const uint groups : k_numbers_of_groups) {
+            one.step_persistently(groups % 2 == 1, groups);
+            many.step_in_many_launches();
+            expected.step_in_many_launches();
+            ASSERT_TRUE(one.motion() == many.motion()) << groups << " groups";
+            ASSERT_TRUE(one.motion() == expected.motion()) << groups << " groups";
+        }
+    }
+};
 
 TEST_P(MultirateIslands, have_the_same_bits_on_every_device_and_path) {
     Settings hubs = eight_at_most();
@@ -129,13 +141,7 @@ TEST_P(MultirateIslands, have_the_same_bits_on_every_device_and_path) {
             each->step(); // finds out how much room the hubs need
             ask_for_different_substeps(*each);
         }
-        for (const uint groups : k_numbers_of_groups) {
-            one.step_persistently(groups % 2 == 1, groups);
-            many.step_in_many_launches();
-            expected.step_in_many_launches();
-            ASSERT_TRUE(one.motion() == many.motion()) << groups << " groups";
-            ASSERT_TRUE(one.motion() == expected.motion()) << groups << " groups";
-        }
+        ASSERT_NO_FATAL_FAILURE(step_in_all_ways(one, many, expected));
         const Contacts contacts = count_contacts(one);
         EXPECT_GT(contacts.slow, 500u);
         EXPECT_GT(contacts.fast, 200u);
@@ -161,13 +167,7 @@ TEST_P(MultirateIslands, sleep_in_parts_and_what_is_awake_keeps_its_sub_steps) {
         each->step(12);
         ask_for_different_substeps(*each);
     }
-    for (const uint groups : k_numbers_of_groups) {
-        one.step_persistently(groups % 2 == 1, groups);
-        many.step_in_many_launches();
-        expected.step_in_many_launches();
-        ASSERT_TRUE(one.motion() == many.motion()) << groups << " groups";
-        ASSERT_TRUE(one.motion() == expected.motion()) << groups << " groups";
-    }
+    ASSERT_NO_FATAL_FAILURE(step_in_all_ways(one, many, expected));
     const uint sleeping = one.counter(engine::k_counter_sleeping_bodies);
     EXPECT_GT(sleeping, 500u);
     EXPECT_LT(sleeping, bodies.size() - 3);

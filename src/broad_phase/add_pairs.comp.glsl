@@ -4,8 +4,8 @@
 // Reads: Poses, Velocities, Shapes, Strays, KnownPairs, NearPairs.
 // Writes: Pairs, OrientedBoxes, Aabbs, Counters.
 // Needs: a barrier after search_strays.
-// Overflow: where very many are new all are searched for; where there is no room for all, the list and the boxes stay as they are, and the step does not fit. So a list is the
-// same in however much room.
+// Overflow: where very many are new all are searched for. Where there is no room for all, the list and the boxes stay as they are,
+// and the step does not fit. So a list is the same in however much room.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"

@@ -2,8 +2,8 @@
 // One invocation is a pair that the constraint graph is made of, as are all of a sleeper that something awake touches: what its contact
 // does to that.
 // Launched in large worlds in which bodies may sleep.
-// Reads: Counters, ManifoldOrder, Manifolds, IslandFill, Shapes; of the contacts of such a sleeper PointImpulses, ManifoldPoints, PointSeparations,
-// Poses and Properties.
+// Reads: Counters, ManifoldOrder, Manifolds, IslandFill; of the contacts of such a sleeper PointImpulses, ManifoldPoints,
+// PointSeparations, Poses, Properties and Shapes.
 // Writes: Balances.
 // Needs: a barrier after store_contact_impulses.
 // Overflow: none; does nothing after a step that did not fit.

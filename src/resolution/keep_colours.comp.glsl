@@ -56,28 +56,21 @@ void keep_colour(uint pair)
 {
     Manifold manifold = unpack(manifolds[pair]);
     uint colour = k_inactive_colour;
-    if (is_active(manifold) && is_between_sleepers(manifold)) {
+    if (is_active(manifold)) {
+        bool sleeps = is_between_sleepers(manifold);
         atomicAdd(manifold_count, 1u);
         atomicAdd(contact_count, manifold.point_count);
-        colour = manifold.colour;
-        if (is_kept(colour, false, parameters.usable_colours)) {
-            use_colour(manifold.body_a, colour);
-            use_colour(manifold.body_b, colour);
-        }
-    } else if (is_active(manifold)) {
-        atomicAdd(manifold_count, 1u);
-        atomicAdd(contact_count, manifold.point_count);
-        atomicMax(substep_demand, substeps_of(manifold.demand));
+        if (!sleeps) atomicMax(substep_demand, substeps_of(manifold.demand));
         colour = manifold.colour;
         bool both_movable = is_movable(shapes[manifold.body_a]) && is_movable(shapes[manifold.body_b]);
-        if (is_kept(colour, both_movable, parameters.usable_colours)) {
+        if (is_kept(colour, both_movable && !sleeps, parameters.usable_colours)) {
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
-            if (is_far_down(colour))
+            if (!sleeps && is_far_down(colour))
                 uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair | k_has_kept;
-            else
+            else if (!sleeps)
                 atomicMax(colour_demand, colours_down_to(colour));
-        } else {
+        } else if (!sleeps) {
             colour = floatBitsToUint(load_on(pair, manifold.point_count));
             uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair;
             want_colour(manifold.body_a);

@@ -23,31 +23,24 @@ static void keep_colours_on_cpu(CpuState& state, const Launch& launch) {
         const uint pair = is_listed ? state.manifold_order[entry] : entry;
         const Manifold& manifold = state.manifolds[pair];
         uint colour = k_inactive_colour;
-        if (is_active(manifold) && is_between_sleepers(manifold)) { // keeps its colour whatever that is
+        if (is_active(manifold)) {
+            const bool sleeps = is_between_sleepers(manifold); // and keeps its colour whatever that is
             ++state.counters[k_counter_manifold_count];
             state.counters[k_counter_contact_count] += manifold.point_count;
-            colour = manifold.colour;
-            if (is_kept(colour, false, state.parameters.usable_colours)) {
-                use_colour(manifold.body_a, colour);
-                use_colour(manifold.body_b, colour);
-            }
-        } else if (is_active(manifold)) {
-            ++state.counters[k_counter_manifold_count];
-            state.counters[k_counter_contact_count] += manifold.point_count;
-            state.counters[k_counter_substep_demand] =
-                max(state.counters[k_counter_substep_demand], substeps_of(manifold.demand));
+            uint& substep_demand = state.counters[k_counter_substep_demand];
+            if (!sleeps) substep_demand = max(substep_demand, substeps_of(manifold.demand));
             colour = manifold.colour;
             const bool both_movable =
                 is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]);
-            if (is_kept(colour, both_movable, state.parameters.usable_colours)) {
+            if (is_kept(colour, both_movable && !sleeps, state.parameters.usable_colours)) {
                 use_colour(manifold.body_a, colour);
                 use_colour(manifold.body_b, colour);
                 uint& demand = state.counters[k_counter_colour_demand];
-                if (is_far_down(colour))
+                if (!sleeps && is_far_down(colour))
                     state.uncoloured[state.counters[k_counter_uncoloured]++] = pair | k_has_kept;
-                else
+                else if (!sleeps)
                     demand = max(demand, colours_down_to(colour));
-            } else {
+            } else if (!sleeps) {
                 colour = floatBitsToUint(load_on(state, pair));
                 state.uncoloured[state.counters[k_counter_uncoloured]++] = pair;
                 want_colour(manifold.body_a);

@@ -3,7 +3,8 @@
 // sleepers comes last, as those that do not touch.
 // args.x: 1 where ManifoldOrder lists the pairs that the graph is made of.
 // Reads: IslandGroups, Islands, Manifolds; ManifoldKeys, the colour of each pair.
-// Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs launches and what sleeps.
+// Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs
+// launches and what sleeps.
 // Needs: a barrier after group_islands.
 // Overflow: none.
 #include "resolution/colouring.shared.glsl"
