@@ -165,9 +165,9 @@ public:
 
     /// Whether a body slept in the last step (see Settings::sleeping); waits for it. Only rigid bodies ever do.
     bool is_asleep(BodyId) const;
-    /// Wakes a body and what touches it: with the next step they begin their rest anew, and so their island is awake, or
-    /// what is near in one of more than 1,024 bodies. All calls that change a body do so. Without effect where all is
-    /// awake.
+    /// Wakes a body and what touches it: with the next step they begin their rest anew, and so their island is awake,
+    /// or what is near in one of more than 1,024 bodies. All calls that change a body do so. Without effect where all
+    /// is awake.
     void wake(BodyId);
 
     /// Factor on the world's gravity.
