@@ -70,10 +70,10 @@ struct Sample {
     Solid b() const { return solid(dvec3(pose_b.position - pose_a.position), pose_b.rotation, shape_b.half_extents); }
 
     ContactGeometry collide(float margin = k_margin) const {
-        return collide_shapes(pose_a, shape_a, pose_b, shape_b, no_carriers(), no_query(), margin);
+        return collide_shapes(pose_a, shape_a, pose_b, shape_b, no_carriers(), margin);
     }
     ContactGeometry collide_swapped() const {
-        return collide_shapes(pose_b, shape_b, pose_a, shape_a, no_carriers(), no_query(), k_margin);
+        return collide_shapes(pose_b, shape_b, pose_a, shape_a, no_carriers(), k_margin);
     }
     /// Cross products of nearly parallel edges are left out by the engine.
     bool has_parallel_edges() const {
@@ -423,8 +423,8 @@ TEST(BoxBox, a_resting_box_keeps_its_axis_while_it_wobbles) {
     for (int i = 0; i < 1'000; ++i) {
         Sample sample = aligned_boxes(vec3(0.5f), vec3(0.5f), vec3(0.0f, 0.999f + samples.number(-3e-4f, 3e-4f), 0.0f));
         sample.pose_b.rotation = turned(samples.direction(), samples.number(0.0f, 5e-4f));
-        const ContactGeometry g = collide_shapes(sample.pose_a, sample.shape_a, sample.pose_b, sample.shape_b, carriers,
-                                                 no_query(), k_margin);
+        const ContactGeometry g =
+            collide_shapes(sample.pose_a, sample.shape_a, sample.pose_b, sample.shape_b, carriers, k_margin);
         ASSERT_EQ(g.count, 4u);
         flips += carriers.axis != k_axis_none && g.axis != carriers.axis ? 1 : 0;
         carriers.axis = g.axis;

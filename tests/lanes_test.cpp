@@ -513,30 +513,60 @@ TEST(Lanes, search_a_tree_as_one_at_a_time) {
     }
 }
 
-TEST(Lanes, query_axes_with_the_bits_of_one_at_a_time) {
+/// What one question gives by itself.
+ContactGeometry collide(const CpuState& state, const BoxQuestion& question) {
+    const uint a = question.body_a, b = question.body_b;
+    const vec3 motion = motion_between(state.velocities[a], state.velocities[b], state.parameters);
+    BodyPose pose_b = state.poses[b];
+    pose_b.position = add_scaled(pose_b.position, motion, question.time);
+    return collide_shapes(state.poses[a], state.shapes[a], pose_b, state.shapes[b], question.carriers,
+                          contact_reach(motion, question.had_contact != 0, state.parameters));
+}
+
+TEST(Lanes, collide_boxes_with_the_bits_of_one_at_a_time) {
     const FlushDenormals flush;
     Items items(1, 0.0f);
-    std::vector<AxisQuestion> questions;
     for (uint a = 0; a < Items::k_bodies; ++a) {
         items.poses[a].position = items.vector(0.6f);
         if (a % 4 == 0) items.poses[a].rotation = vec4(0.0f, 0.0f, 0.0f, 1.0f); // their edges are parallel
+        if (a % 4 == 1)                                                         // their edges lie on faces, nearly
+            items.poses[a].rotation = normalise_quaternion(vec4(0.003f, items.number(1.0f), 0.002f, 1.0f));
+        items.velocities[a].linear = items.vector(a % 3 == 0 ? 9.0f : 0.0f);
         items.shapes[a].half_extents = vec3(0.5f) + items.vector(0.3f);
-        for (uint b = 0; b < a; ++b)
-            questions.push_back({a, b, (a + b) % 3 == 0 ? k_axis_none : (a * b) % 15});
     }
     items.poses[7].position.y = std::numeric_limits<float>::quiet_NaN();
     const CpuState state = items.state();
+    std::vector<BoxQuestion> questions;
+    for (uint a = 0; a < Items::k_bodies; ++a) {
+        for (uint b = 0; b < a; ++b) {
+            BoxQuestion question{a, b, no_carriers(), (a + b) % 5 == 0 ? 0.7f : 0.0f, (a + b) % 3 == 0 ? 0u : 1u};
+            if (question.had_contact != 0) { // of which some points carried load
+                const ContactGeometry g = collide(state, question);
+                question.carriers.axis = a % 6 == 0 ? (a * b) % 15 : g.axis;
+                for (uint i = 0; i < g.count; ++i)
+                    question.carriers.features[i] = (i + b) % 2 == 0 ? g.features[i] : k_none;
+            }
+            questions.push_back(question);
+        }
+    }
     for (const LaneQueries* queries : TALUS_RUNNABLE(lane_queries)) {
+        int apart = 0, at_faces = 0, at_edges = 0, of_four = 0;
         for (std::size_t first = 0; first + queries->lanes <= questions.size(); first += queries->lanes) {
-            AxisQuery answers[k_most_lanes];
-            queries->query_axes(state, &questions[first], answers);
+            ContactGeometry answers[k_most_lanes];
+            queries->collide_boxes(state, &questions[first], answers);
             for (uint lane = 0; lane < queries->lanes; ++lane) {
-                const auto [a, b, old_axis] = questions[first + lane];
-                const BoxPair pair = make_box_pair(state.poses[a], state.shapes[a], state.poses[b], state.shapes[b]);
-                const AxisQuery one = query_axes(pair, old_axis);
-                EXPECT_EQ(std::memcmp(&one, &answers[lane], sizeof one), 0) << a << " and " << b;
+                const BoxQuestion& question = questions[first + lane];
+                const ContactGeometry one = collide(state, question);
+                EXPECT_EQ(std::memcmp(&one, &answers[lane], sizeof one), 0)
+                    << question.body_a << " and " << question.body_b;
+                ++(one.count == 0 ? apart : one.axis < 6 ? at_faces : at_edges);
+                of_four += one.count == 4 ? 1 : 0;
             }
         }
+        EXPECT_GT(apart, 100);
+        EXPECT_GT(at_faces, 100);
+        EXPECT_GT(at_edges, 100);
+        EXPECT_GT(of_four, 100);
     }
 }
 

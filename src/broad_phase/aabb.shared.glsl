@@ -13,6 +13,13 @@ inline float contact_margin(BodyVelocity velocity, Parameters p)
 // always is as wide as that, and changes by micrometres: its contact would come and go, and the constraint graph with it.
 const float k_parting = 2.5e-4f;
 
+// Of B as seen from A, in this step (m).
+inline vec3 motion_between(BodyVelocity a, BodyVelocity b, Parameters p)
+{
+    precise vec3 motion = (b.linear - a.linear) * p.dt;
+    return motion;
+}
+
 // How far apart two bodies may be that have a contact (m). `motion`: of B as seen from A, in this step (m).
 inline float contact_reach(vec3 motion, bool had_contact, Parameters p)
 {

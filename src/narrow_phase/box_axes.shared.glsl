@@ -26,16 +26,6 @@ struct AxisQuery {
     uint axis;
 };
 
-// For a caller that has not asked yet.
-inline AxisQuery no_query()
-{
-    AxisQuery none;
-    none.separation = -3.0e38f;
-    none.score = -3.0e38f;
-    none.axis = k_axis_none;
-    return none;
-}
-
 inline AxisQuery better_axis(AxisQuery best, float separation, float preference, uint axis, uint old_axis)
 {
     precise float score = separation + preference + choose(axis == old_axis, k_axis_persistence, 0.0f);
@@ -93,7 +83,9 @@ inline AxisQuery query_axes(BoxPair p, uint old_axis)
     vec3 x = b.axes.x;
     vec3 y = b.axes.y;
     vec3 z = b.axes.z;
-    AxisQuery best = no_query();
+    AxisQuery best;
+    best.separation = -k_far_apart;
+    best.score = -k_far_apart;
     best.axis = 0u; // also of boxes that are nowhere
     best = try_faces(best, faces.a, 0u, old_axis);
     best = try_faces(best, faces.b, 3u, old_axis);

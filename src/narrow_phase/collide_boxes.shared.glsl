@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Box against box: separating axis test, clipping, reduction (thesis, section 3.3).
-// Needs narrow_phase/box_axes.shared.glsl, and narrow_phase/polygon.glsl or polygon.h.
+// Needs narrow_phase/box_axes.shared.glsl, and narrow_phase/polygon.glsl, polygon.h or lane_polygon.h.
 
 // A point that is not this much deeper than a corner of the contact's outline is not worth giving up the corner (m).
 const float k_depth_tie = 1.0e-3f;
@@ -21,20 +21,25 @@ const uint k_worth_carrying = 2u; // it carried load in the last step
 inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit, uint label)
 {
     Polygon result = polygon_beside(polygon);
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        vec3 from = corner_of(polygon, i);
-        vec3 to = corner_of(polygon, choose(i + 1u < polygon.count, i + 1u, 0u));
-        precise float distance_from = sign * component(from, axis) - limit;
-        precise float distance_to = sign * component(to, axis) - limit;
+    Corner from = corner_of(polygon, 0u);
+    precise float distance_from = sign * component(from.place, axis) - limit;
+    for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
+        Corner to = corner_after(polygon, i);
+        precise float distance_to = sign * component(to.place, axis) - limit;
+        bool is_there = i < polygon.count;
         bool inside_from = distance_from <= 0.0f;
         bool inside_to = distance_to <= 0.0f;
-        if (inside_from) add_corner(result, from, label_of(polygon, i));
-        if (inside_from != inside_to) {
+        bool stays = is_there && inside_from;
+        bool crosses = is_there && inside_from != inside_to;
+        if (any_lane(stays)) add_corner(result, stays, from.place, from.label);
+        if (any_lane(crosses)) {
             precise float t = distance_from * reciprocal(distance_from - distance_to);
-            precise vec3 crossing = from + (to - from) * t;
+            precise vec3 crossing = from.place + (to.place - from.place) * t;
             // On the way out the next edge runs along the plane; on the way in it is the rest of this edge.
-            add_corner(result, crossing, choose(inside_from, label, label_of(polygon, i)));
+            add_corner(result, crosses, crossing, choose(inside_from, label, from.label));
         }
+        from = to;
+        distance_from = distance_to;
     }
     return result;
 }
@@ -43,9 +48,8 @@ inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit,
 // `r`: incident axes in the reference frame's directions (u, v, n); `centre`: incident centre there.
 inline Polygon incident_face(Axes r, vec3 half_extents, vec3 centre)
 {
-    uint axis = 0u;
-    if (abs(r.y.z) > abs(r.x.z)) axis = 1u;
-    if (abs(r.z.z) > max(abs(r.x.z), abs(r.y.z))) axis = 2u;
+    uint axis = choose(abs(r.y.z) > abs(r.x.z), 1u, 0u);
+    axis = choose(abs(r.z.z) > max(abs(r.x.z), abs(r.y.z)), 2u, axis);
     vec3 face_normal = axis_of(r, axis);
     float side = choose(face_normal.z > 0.0f, -1.0f, 1.0f);
     uint axis_u = choose(axis == 2u, 0u, axis + 1u);
@@ -60,10 +64,10 @@ inline Polygon incident_face(Axes r, vec3 half_extents, vec3 centre)
     // The face is part of the label, so that a point on another face is another feature.
     uint label = 8u * (2u * axis + choose(side > 0.0f, 1u, 0u));
     Polygon polygon = empty_polygon();
-    add_corner(polygon, p0, label);
-    add_corner(polygon, p1, label + 1u);
-    add_corner(polygon, p2, label + 2u);
-    add_corner(polygon, p3, label + 3u);
+    add_corner(polygon, true, p0, label);
+    add_corner(polygon, true, p1, label + 1u);
+    add_corner(polygon, true, p2, label + 2u);
+    add_corner(polygon, true, p3, label + 3u);
     return polygon;
 }
 
@@ -113,7 +117,8 @@ inline uint feature_between(uint label_before, uint label)
 
 inline uint feature_of(Polygon polygon, uint i)
 {
-    return feature_between(label_of(polygon, choose(i > 0u, i - 1u, polygon.count - 1u)), label_of(polygon, i));
+    uint before = choose(i > 0u, i, polygon.count) - 1u;
+    return feature_between(corner_at(polygon, before).label, corner_at(polygon, i).label);
 }
 
 // Which four points to keep of more (algorithm 8): the deepest, the farthest from it, the one that makes the largest
@@ -130,54 +135,52 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
     vec3 middle = vec3(0.0f, 0.0f, 0.0f);
     uint deepest = 0u;
     float lowest = k_far_apart;
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        vec3 corner = corner_of(polygon, i);
-        middle = add_scaled(middle, corner, inverse_count);
-        if (corner.z < lowest) {
-            lowest = corner.z;
-            deepest = i;
-        }
+    for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
+        bool is_there = i < polygon.count;
+        vec3 corner = corner_of(polygon, i).place;
+        bool is_lower = is_there && corner.z < lowest;
+        middle = choose_active(is_there, add_scaled(middle, corner, inverse_count), middle);
+        lowest = choose(is_lower, corner.z, lowest);
+        deepest = choose(is_lower, i, deepest);
     }
     precise float near = max(lowest, 0.0f) + k_near;
     uint worths = 0u;
-    uint before = label_of(polygon, polygon.count - 1u);
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        uint label = label_of(polygon, i);
-        uint worth = choose(corner_of(polygon, i).z <= near, k_worth_near, k_worth_far);
-        if (carried_load(carriers, feature_between(before, label))) worth = k_worth_carrying;
-        worths |= worth << (2u * i);
-        before = label;
-    }
+    uint before = corner_at(polygon, polygon.count - 1u).label;
     Pick first = no_pick(deepest);
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        precise vec3 d = corner_of(polygon, i) - middle;
+    for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
+        Corner corner = corner_of(polygon, i);
+        uint worth = choose(corner.place.z <= near, k_worth_near, k_worth_far);
+        worth = choose(carried_load(carriers, feature_between(before, corner.label)), k_worth_carrying, worth);
+        worths |= worth << (2u * i);
+        before = corner.label;
+        precise vec3 d = corner.place - middle;
         precise float square = d.x * d.x + d.y * d.y;
-        first = better_pick(first, i, worth_of(worths, i), square);
+        first = better_pick(first, i, worth, choose_active(i < polygon.count, square, 0.0f));
     }
-    precise float deeper = corner_of(polygon, first.point).z - lowest;
-    if (deeper > k_depth_tie) first.point = deepest;
-    vec3 a = corner_of(polygon, first.point);
+    precise float deeper = corner_at(polygon, first.point).place.z - lowest;
+    first.point = choose(deeper > k_depth_tie, deepest, first.point);
+    vec3 a = corner_at(polygon, first.point).place;
     Pick second = no_pick(first.point);
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        precise vec3 d = corner_of(polygon, i) - a;
+    for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
+        precise vec3 d = corner_of(polygon, i).place - a;
         precise float square = d.x * d.x + d.y * d.y;
-        second = better_pick(second, i, worth_of(worths, i), square);
+        second = better_pick(second, i, worth_of(worths, i), choose_active(i < polygon.count, square, 0.0f));
     }
-    vec3 b = corner_of(polygon, second.point);
+    vec3 b = corner_at(polygon, second.point).place;
     Pick third = no_pick(first.point);
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        float area = abs(triangle_area(a, b, corner_of(polygon, i)));
-        third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), area);
+    for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
+        float area = abs(triangle_area(a, b, corner_of(polygon, i).place));
+        third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), choose_active(i < polygon.count, area, 0.0f));
     }
-    vec3 c = corner_of(polygon, third.point);
+    vec3 c = corner_at(polygon, third.point).place;
     float turn = choose(triangle_area(a, b, c) < 0.0f, -1.0f, 1.0f);
     Pick fourth = no_pick(first.point);
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        vec3 p = corner_of(polygon, i);
+    for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
+        vec3 p = corner_of(polygon, i).place;
         // The area beyond a side is negative in the triangle's own orientation.
         float inside = min(turn * triangle_area(a, b, p),
                            min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
-        fourth = better_pick(fourth, i, min(worth_of(worths, i), k_worth_near), -inside);
+        fourth = better_pick(fourth, i, min(worth_of(worths, i), k_worth_near), choose_active(i < polygon.count, -inside, 0.0f));
     }
     return (1u << first.point) | (1u << second.point) | (1u << third.point) | (1u << fourth.point);
 }
@@ -185,16 +188,17 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
 inline uint without_lowest(uint corners) { return corners & (corners - 1u); }
 
 // Point i of the contact is the lowest of `corners`, a bit each, if there is one.
-inline ContactGeometry keep_corner(ContactGeometry g, uint i, Polygon polygon, uint corners, Axes frame, float half_n)
+inline ContactGeometry keep_corner(ContactGeometry g, int i, Polygon polygon, uint corners, Axes frame, float half_n)
 {
-    if (corners != 0u) {
+    bool is_there = corners != 0u;
+    if (any_lane(is_there)) {
         uint lowest = uint(findLSB(corners));
-        vec3 corner = corner_of(polygon, lowest);
+        vec3 corner = corner_at(polygon, lowest).place;
         // Projected on the reference face, then moved half-way to the incident one.
         precise vec3 local = vec3(corner.x, corner.y, half_n + 0.5f * corner.z);
-        g.points[i] = to_world(frame, local);
-        g.separations[i] = corner.z;
-        g.features[i] = feature_of(polygon, lowest);
+        g.points[i] = choose_active(is_there, to_world(frame, local), g.points[i]);
+        g.separations[i] = choose_active(is_there, corner.z, g.separations[i]);
+        g.features[i] = choose_active(is_there, feature_of(polygon, lowest), g.features[i]);
     }
     return g;
 }
@@ -226,21 +230,23 @@ inline ContactGeometry face_contact(BoxPair p, uint axis, Carriers carriers, flo
     polygon = clip_polygon(polygon, 1u, 1.0f, half_v, 6u);
     polygon = clip_polygon(polygon, 1u, -1.0f, half_v, 7u);
 
-    uint kept = polygon.count > 4u ? reduce_points(polygon, carriers) : (1u << polygon.count) - 1u;
-    for (uint i = 0u; i < polygon.count; i += 1u) {
-        if (corner_of(polygon, i).z > max_separation) kept &= ~(1u << i);
+    uint kept = (1u << polygon.count) - 1u;
+    bool are_many = polygon.count > 4u;
+    if (any_lane(are_many)) kept = choose_active(are_many, reduce_points(polygon, carriers), kept);
+    for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
+        kept &= ~(choose(corner_of(polygon, i).place.z > max_separation, 1u, 0u) << i);
     }
     ContactGeometry g = no_contact();
     g.normal = frame.z;
     g.count = uint(bitCount(kept));
     // Written out, so that every place in the arrays is known to the compiler.
-    g = keep_corner(g, 0u, polygon, kept, frame, half_n);
+    g = keep_corner(g, 0, polygon, kept, frame, half_n);
     kept = without_lowest(kept);
-    g = keep_corner(g, 1u, polygon, kept, frame, half_n);
+    g = keep_corner(g, 1, polygon, kept, frame, half_n);
     kept = without_lowest(kept);
-    g = keep_corner(g, 2u, polygon, kept, frame, half_n);
+    g = keep_corner(g, 2, polygon, kept, frame, half_n);
     kept = without_lowest(kept);
-    g = keep_corner(g, 3u, polygon, kept, frame, half_n);
+    g = keep_corner(g, 3, polygon, kept, frame, half_n);
     return g;
 }
 
@@ -257,16 +263,22 @@ inline bool is_almost_normal(vec3 across, vec3 axis)
     return along * along > k_almost_normal * k_almost_normal * dot3(across, across);
 }
 
+// The edges whose cross product an axis is, which is no face's.
+inline uint edge_of_a(uint axis) { return choose(axis >= 12u, 2u, choose(axis >= 9u, 1u, 0u)); }
+inline uint edge_of_b(uint axis) { return axis - 6u - 3u * edge_of_a(axis); }
+
 // The axis to collide along: the one that separates the boxes most, or the face that it stands for; where there are two
 // such faces, the last step's if it is one of them. Boxes that do not touch yet have no end of an edge to lose.
 inline uint axis_of_contact(BoxPair p, AxisQuery query, uint old_axis)
 {
     uint axis = query.axis;
-    if (axis >= 6u && !(query.separation > k_near)) {
-        vec3 across = cross3(axis_of(p.a, (axis - 6u) / 3u), axis_of(p.b, (axis - 6u) % 3u));
-        for (uint face = 0u; face < 6u; face += 1u) {
+    bool may_lie_on_face = axis >= 6u && !(query.separation > k_near);
+    if (any_lane(may_lie_on_face)) {
+        vec3 across = cross3(axis_of(p.a, edge_of_a(axis)), axis_of(p.b, edge_of_b(axis)));
+        for (uint face = 0u; any_lane(face < 6u); face += 1u) {
             vec3 normal = choose(face < 3u, axis_of(p.a, face), axis_of(p.b, face - 3u));
-            if ((axis >= 6u || face == old_axis) && is_almost_normal(across, normal)) axis = face;
+            bool is_free = may_lie_on_face && (axis >= 6u || face == old_axis);
+            axis = choose(is_free && is_almost_normal(across, normal), face, axis);
         }
     }
     return axis;
@@ -286,21 +298,18 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
     vec3 point_a = vec3(0.0f, 0.0f, 0.0f);
     vec3 point_b = p.offset;
     uint corner = 0u;
-    for (uint i = 0u; i < 3u; i += 1u) {
-        if (i != edge_a) {
-            vec3 axis = axis_of(p.a, i);
-            bool positive = dot3(axis, normal) > 0.0f;
-            float reach = component(p.half_a, i);
-            point_a = add_scaled(point_a, axis, choose(positive, reach, -reach));
-            corner = corner * 2u + choose(positive, 1u, 0u);
-        }
-        if (i != edge_b) {
-            vec3 axis = axis_of(p.b, i);
-            bool positive = dot3(axis, normal) < 0.0f;
-            float reach = component(p.half_b, i);
-            point_b = add_scaled(point_b, axis, choose(positive, reach, -reach));
-            corner = corner * 2u + choose(positive, 1u, 0u);
-        }
+    for (uint i = 0u; any_lane(i < 3u); i += 1u) {
+        vec3 axis = axis_of(p.a, i);
+        bool positive = dot3(axis, normal) > 0.0f;
+        float reach = component(p.half_a, i);
+        point_a = choose(i != edge_a, add_scaled(point_a, axis, choose(positive, reach, -reach)), point_a);
+        corner = choose(i != edge_a, corner * 2u + choose(positive, 1u, 0u), corner);
+
+        axis = axis_of(p.b, i);
+        positive = dot3(axis, normal) < 0.0f;
+        reach = component(p.half_b, i);
+        point_b = choose(i != edge_b, add_scaled(point_b, axis, choose(positive, reach, -reach)), point_b);
+        corner = choose(i != edge_b, corner * 2u + choose(positive, 1u, 0u), corner);
     }
     // Minimise |point_a + s a - point_b - t b|: with unit directions and c = a·b, s = (a·d - c b·d) / (1 - c^2).
     precise vec3 d = point_b - point_a;
@@ -320,44 +329,51 @@ inline ContactGeometry edge_contact(BoxPair p, uint edge_a, uint edge_b, float s
     return g;
 }
 
+inline BoxPair swap_boxes(BoxPair p)
+{
+    BoxPair q;
+    q.a = p.b;
+    q.b = p.a;
+    q.half_a = p.half_b;
+    q.half_b = p.half_a;
+    q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
+    return q;
+}
+
 // The reference box is the one whose face it is: `axis` is below 6.
 inline ContactGeometry contact_at_face(BoxPair p, uint axis, Carriers carriers, float max_separation)
 {
     bool b_is_reference = axis >= 3u;
     BoxPair q = p;
-    if (b_is_reference) {
-        q.a = p.b;
-        q.b = p.a;
-        q.half_a = p.half_b;
-        q.half_b = p.half_a;
-        q.offset = vec3(-p.offset.x, -p.offset.y, -p.offset.z);
-    }
-    if (carriers.axis != axis) carriers = no_carriers();
+    if (any_lane(b_is_reference)) q = choose_active(b_is_reference, swap_boxes(p), p);
+    bool is_another = carriers.axis != axis;
+    if (any_lane(is_another)) carriers = choose_active(is_another, no_carriers(), carriers);
     ContactGeometry g = face_contact(q, choose(b_is_reference, axis - 3u, axis), carriers, max_separation);
-    if (b_is_reference) g = swap_bodies(g, q.offset);
+    if (any_lane(b_is_reference)) g = choose_active(b_is_reference, swap_bodies(g, q.offset), g);
     g.axis = axis;
     return g;
 }
 
-// `known`: of these boxes, or no_query().
-inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, AxisQuery known, float max_separation)
+inline ContactGeometry contact_at_edges(BoxPair p, AxisQuery query)
 {
-    AxisQuery query = known;
-    if (known.axis == k_axis_none) query = query_axes(p, carriers.axis);
+    ContactGeometry g = edge_contact(p, edge_of_a(query.axis), edge_of_b(query.axis), query.separation);
+    g.axis = query.axis;
+    return g;
+}
+
+inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, float max_separation)
+{
+    AxisQuery query = query_axes(p, carriers.axis);
     ContactGeometry g = no_contact();
-    if (!(query.separation > max_separation)) {
+    bool is_near = !(query.separation > max_separation);
+    if (any_lane(is_near)) {
         uint axis = axis_of_contact(p, query, carriers.axis);
-        bool is_at_face = axis < 6u;
-        if (is_at_face) {
-            g = contact_at_face(p, axis, carriers, max_separation);
-            g.separation = query.separation;
-            // Just before the boxes touch a face that stands for edges may have no point.
-            is_at_face = query.axis < 6u || g.count > 0u;
-        }
-        if (!is_at_face) {
-            g = edge_contact(p, (query.axis - 6u) / 3u, (query.axis - 6u) % 3u, query.separation);
-            g.axis = query.axis;
-        }
+        bool is_at_face = is_near && axis < 6u;
+        if (any_lane(is_at_face)) g = choose_active(is_at_face, contact_at_face(p, axis, carriers, max_separation), g);
+        // Just before the boxes touch a face that stands for edges may have no point.
+        bool is_at_edges = is_near && query.axis >= 6u && g.count == 0u;
+        if (any_lane(is_at_edges)) g = choose_active(is_at_edges, contact_at_edges(p, query), g);
+        g.separation = choose_active(is_near, query.separation, g.separation);
     }
     return g;
 }

@@ -167,11 +167,10 @@ void main()
     BodyPose pose_b = unpack(poses[pair.body_b]);
     BodyShape shape_a = unpack(shapes[pair.body_a]);
     BodyShape shape_b = unpack(shapes[pair.body_b]);
-    precise vec3 motion =
-        (unpack(velocities[pair.body_b]).linear - unpack(velocities[pair.body_a]).linear) * parameters.dt;
+    vec3 motion = motion_between(unpack(velocities[pair.body_a]), unpack(velocities[pair.body_b]), parameters);
     float max_separation = contact_reach(motion, old_index != k_none, parameters);
     ContactGeometry g =
-        collide_moving_shapes(pose_a, shape_a, pose_b, shape_b, motion, carriers, no_query(), max_separation);
+        collide_moving_shapes(pose_a, shape_a, pose_b, shape_b, motion, carriers, max_separation);
     bool sensed = is_sensed(shape_a, shape_b);
     if (sensed && !can_meet(shape_a, shape_b)) g.count = 0u;
 

@@ -80,28 +80,20 @@ void compare_with_last(CpuState& state, uint pair_index) {
 struct PairInHand {
     uint index;
     uint old_index; ///< of its last manifold; k_none: it has none
-    OldPoints old;
-    AxisQuery axes; ///< no_query() where one is no box
 };
 
-void collide_pair(CpuState& state, const PairInHand& in_hand) {
+void put_manifold(CpuState& state, const PairInHand& in_hand, ContactGeometry& g) {
     const Pair pair = state.pairs[in_hand.index];
-    const BodyPose& pose_a = state.poses[pair.body_a];
-    const BodyPose& pose_b = state.poses[pair.body_b];
-    const vec3 motion =
-        (state.velocities[pair.body_b].linear - state.velocities[pair.body_a].linear) * state.parameters.dt;
-    const float max_separation = contact_reach(motion, in_hand.old_index != k_none, state.parameters);
-    ContactGeometry g = collide_moving_shapes(pose_a, state.shapes[pair.body_a], pose_b, state.shapes[pair.body_b],
-                                              motion, carriers_of(in_hand.old), in_hand.axes, max_separation);
-    const bool sensed = is_sensed(state.shapes[pair.body_a], state.shapes[pair.body_b]);
-    if (sensed && !can_meet(state.shapes[pair.body_a], state.shapes[pair.body_b])) g.count = 0;
+    const BodyShape &shape_a = state.shapes[pair.body_a], &shape_b = state.shapes[pair.body_b];
+    const bool sensed = is_sensed(shape_a, shape_b);
+    if (sensed && !can_meet(shape_a, shape_b)) g.count = 0;
 
     Manifold manifold = make_manifold(pair, g, state.properties[pair.body_a], state.properties[pair.body_b]);
     vec4 impulses(0.0f);
     if (in_hand.old_index != k_none) {
         manifold = carry_over(manifold, state.old_manifolds[in_hand.old_index], state.parameters);
-        impulses = carry_impulses(g, in_hand.old);
-    } else if (is_placed(pose_a, state.shapes[pair.body_a]) && is_placed(pose_b, state.shapes[pair.body_b])) {
+        impulses = carry_impulses(g, read_old_points(state, in_hand.old_index));
+    } else if (is_placed(state.poses[pair.body_a], shape_a) && is_placed(state.poses[pair.body_b], shape_b)) {
         manifold = begin_trial(manifold, state.parameters);
     }
     if (sensed) {
@@ -114,6 +106,11 @@ void collide_pair(CpuState& state, const PairInHand& in_hand) {
     state.point_separations[in_hand.index] = make_separations(g);
     for (uint i = 0; i < g.count; ++i)
         state.manifold_points[std::size_t{4} * in_hand.index + i] = make_point(g.points[i], g.features[i]);
+}
+
+bool are_boxes(const CpuState& state, const Pair& pair) {
+    const auto is_box = [&](uint body) { return (state.shapes[body].type & 255u) == k_shape_box; };
+    return is_box(pair.body_a) && is_box(pair.body_b);
 }
 
 constexpr uint k_part = 32; // pairs that a thread treats together, and bits of a word
@@ -133,26 +130,58 @@ uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::a
         if (old_index == k_none && !is_among(near.now))
             put_none(state, index);
         else
-            in_hand[count++] = {index, old_index, read_old_points(state, old_index), no_query()};
+            in_hand[count++] = {index, old_index};
     }
     return count;
 }
 
-/// Of the pairs of boxes, side by side.
-void query_axes_of(const CpuState& state, std::span<PairInHand> in_hand) {
-    std::array<AxisQuestion, k_part> questions{};
-    std::array<AxisQuery, k_part> answers;
-    const auto is_box = [&](uint body) { return (state.shapes[body].type & 255u) == k_shape_box; };
-    const auto is_asked = [&](const Pair& pair) { return is_box(pair.body_a) && is_box(pair.body_b); };
+vec3 motion_of(const CpuState& state, const Pair& pair) {
+    return motion_between(state.velocities[pair.body_a], state.velocities[pair.body_b], state.parameters);
+}
+
+Carriers carriers_of_last(const CpuState& state, const PairInHand& in_hand) {
+    return in_hand.old_index == k_none ? no_carriers() : carriers_of(read_old_points(state, in_hand.old_index));
+}
+
+ContactGeometry collide_pair(const CpuState& state, const PairInHand& in_hand) {
+    const auto [a, b] = state.pairs[in_hand.index];
+    const vec3 motion = motion_of(state, {a, b});
+    return collide_moving_shapes(state.poses[a], state.shapes[a], state.poses[b], state.shapes[b], motion,
+                                 carriers_of_last(state, in_hand),
+                                 contact_reach(motion, in_hand.old_index != k_none, state.parameters));
+}
+
+/// The same for pairs of boxes, side by side.
+void collide_boxes_ahead(const CpuState& state, std::span<const PairInHand> pairs, ContactGeometry* found) {
+    std::array<BoxQuestion, k_part> questions; // of those that are still to be looked at
+    std::array<uint, k_part> of_pair;
+    std::array<LookAhead, k_part> aheads;
     uint count = 0;
-    for (const PairInHand& each : in_hand) {
-        const Pair& pair = state.pairs[each.index];
-        if (is_asked(pair)) questions[count++] = {pair.body_a, pair.body_b, each.old.axis};
+    for (const PairInHand& pair : pairs) {
+        const auto [a, b] = state.pairs[pair.index];
+        questions[count] = {a, b, carriers_of_last(state, pair), 0.0f, pair.old_index != k_none ? 1u : 0u};
+        aheads[count] = begin_look_ahead();
+        of_pair[count] = count;
+        ++count;
     }
-    query_axes(state, questions.data(), count, answers.data());
-    count = 0;
-    for (PairInHand& each : in_hand) {
-        if (is_asked(state.pairs[each.index])) each.axes = answers[count++];
+    std::array<ContactGeometry, k_part> memory;
+    for (ContactGeometry* met = found; count > 0; met = memory.data()) { // the first look is where they are
+        collide_boxes(state, questions.data(), count, met);
+        uint left = 0;
+        for (uint i = 0; i < count; ++i) {
+            const vec3 motion = motion_of(state, {questions[i].body_a, questions[i].body_b});
+            const LookAhead ahead = look_on(aheads[i], met[i], motion);
+            ContactGeometry& now = found[of_pair[i]];
+            if (!ahead.ends) {
+                questions[left] = questions[i];
+                questions[left].time = ahead.next;
+                aheads[left] = ahead;
+                of_pair[left++] = of_pair[i];
+            } else if (met != found) {
+                now = contact_ahead(now, met[i], ahead.time, motion);
+            }
+        }
+        count = left;
     }
 }
 
@@ -161,11 +190,18 @@ void collide_pairs_on_cpu(CpuState& state, const Launch&) {
     const bool same_pairs = state.counters[k_counter_pairs_changed] == 0;
     const auto collide_part = [&](uint part) {
         const uint first = part * k_part, end = std::min(first + k_part, pair_count);
-        std::array<PairInHand, k_part> memory;
-        const std::span in_hand(memory.data(), take_in_hand(state, first, end, same_pairs, memory));
-        query_axes_of(state, in_hand);
-        for (const PairInHand& each : in_hand)
-            collide_pair(state, each);
+        std::array<PairInHand, k_part> in_hand;
+        std::array<ContactGeometry, k_part> found;
+        const uint count = take_in_hand(state, first, end, same_pairs, in_hand);
+        const auto others = std::partition(in_hand.begin(), in_hand.begin() + count, [&](const PairInHand& each) {
+            return are_boxes(state, state.pairs[each.index]);
+        });
+        const auto box_count = static_cast<uint>(others - in_hand.begin());
+        collide_boxes_ahead(state, {in_hand.data(), box_count}, found.data());
+        for (uint i = box_count; i < count; ++i)
+            found[i] = collide_pair(state, in_hand[i]);
+        for (uint i = 0; i < count; ++i)
+            put_manifold(state, in_hand[i], found[i]);
         for (uint index = first; same_pairs && index < end; ++index)
             compare_with_last(state, index);
     };

@@ -8,11 +8,13 @@
 
 namespace talus::engine {
 
-/// Two boxes, and the axis of their last manifold.
-struct AxisQuestion {
+/// Two boxes that are to be collided.
+struct alignas(16) BoxQuestion {
     uint body_a;
     uint body_b;
-    uint old_axis;
+    Carriers carriers; ///< of their last manifold
+    float time;        ///< when they are asked for, in steps
+    uint had_contact;  ///< 0: they have no last manifold
 };
 
 /// Of up to 32 pairs, a bit for each.
@@ -26,13 +28,13 @@ struct LaneQueries {
     /// Of as many pairs as there are lanes.
     NearPairs (*find_near)(const CpuState&, const Pair*);
     /// Answers as many questions as there are lanes.
-    void (*query_axes)(const CpuState&, const AxisQuestion*, AxisQuery*);
+    void (*collide_boxes)(const CpuState&, const BoxQuestion*, ContactGeometry*);
 };
 
 /// Of at most 32 pairs, with the widest registers that this machine has.
 NearPairs find_near(const CpuState&, const Pair*, uint count);
 
 /// Answers one question after the other, with the widest registers that this machine has.
-void query_axes(const CpuState&, const AxisQuestion*, uint count, AxisQuery*);
+void collide_boxes(const CpuState&, const BoxQuestion*, uint count, ContactGeometry*);
 
 } // namespace talus::engine

@@ -7,6 +7,6 @@
 namespace talus::engine {
 
 extern const LaneQueries lane_queries_avx2;
-const LaneQueries lane_queries_avx2{TALUS_LANES, lanes_avx2::find_near, lanes_avx2::query_axes};
+const LaneQueries lane_queries_avx2{TALUS_LANES, lanes_avx2::find_near, lanes_avx2::collide_boxes};
 
 } // namespace talus::engine

@@ -7,6 +7,6 @@
 namespace talus::engine {
 
 extern const LaneQueries lane_queries_base;
-const LaneQueries lane_queries_base{TALUS_LANES, lanes_base::find_near, lanes_base::query_axes};
+const LaneQueries lane_queries_base{TALUS_LANES, lanes_base::find_near, lanes_base::collide_boxes};
 
 } // namespace talus::engine

@@ -25,33 +25,49 @@ inline bool is_broad(ContactGeometry g)
     return g.count == 4u && dot3(u, u) > least && dot3(v, v) > least;
 }
 
-// `motion`: of B as seen from A, in this step (m). Rotation is left out of account. `known`: of two boxes where they are
-// now, or no_query().
-inline ContactGeometry collide_moving_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
-                                             vec3 motion, Carriers carriers, AxisQuery known,
-                                             float max_separation)
+// How far two bodies have been looked ahead.
+struct LookAhead {
+    float time; // when they were looked at last, in steps
+    float next; // when they are to be looked at next
+    uint looks;
+    bool ends; // they need not be looked at again
+};
+
+inline LookAhead begin_look_ahead()
 {
-    vec3 start = pose_b.position;
-    ContactGeometry now = no_contact();
-    ContactGeometry met = now;
-    float time = 0.0f; // in steps
-    float next = 0.0f;
-    for (uint i = 0u; i < 4u; i += 1u) {
-        time = next;
-        pose_b.position = add_scaled(start, motion, time);
-        met = collide_shapes(pose_a, shape_a, pose_b, shape_b, carriers, known, max_separation);
-        known = no_query();
-        if (i == 0u) now = met;
-        if (met.separation <= 0.0f && is_broad(met)) break;
-        float closing = -dot3(met.normal, motion);
-        precise float distance = met.separation + k_graze;
-        precise float within_reach = closing * (k_steps_ahead - time);
-        precise float within_sight = closing * k_graze_steps;
-        // Met, or apart for long enough, or at rest.
-        if (distance <= 0.0f || met.separation > within_reach || distance > within_sight) break;
-        precise float later = time + distance * reciprocal(closing);
-        next = later;
+    LookAhead ahead;
+    ahead.time = 0.0f;
+    ahead.next = 0.0f;
+    ahead.looks = 0u;
+    ahead.ends = false;
+    return ahead;
+}
+
+const uint k_most_looks = 4u;
+
+// `met`: the bodies at the time `ahead.next`. `motion`: of B as seen from A, in this step (m). Rotation is left out of
+// account.
+inline LookAhead look_on(LookAhead ahead, ContactGeometry met, vec3 motion)
+{
+    ahead.time = ahead.next;
+    ahead.looks += 1u;
+    float closing = -dot3(met.normal, motion);
+    precise float distance = met.separation + k_graze;
+    precise float within_reach = closing * (k_steps_ahead - ahead.time);
+    precise float within_sight = closing * k_graze_steps;
+    // They touch, have met, are apart for long enough, or at rest.
+    ahead.ends = (met.separation <= 0.0f && is_broad(met)) || distance <= 0.0f || met.separation > within_reach ||
+                 distance > within_sight || ahead.looks == k_most_looks;
+    if (!ahead.ends) {
+        precise float later = ahead.time + distance * reciprocal(closing);
+        ahead.next = later;
     }
+    return ahead;
+}
+
+// The contact of two bodies, by where they are, `now`, and where they were looked at last, `time` steps later.
+inline ContactGeometry contact_ahead(ContactGeometry now, ContactGeometry met, float time, vec3 motion)
+{
     if (time == 0.0f) return now;
     // Already in contact there, as is what rests or has just landed.
     if (now.separation <= 0.0f && met.axis == now.axis && met.axis != k_axis_none) return now;
@@ -74,4 +90,20 @@ inline ContactGeometry collide_moving_shapes(BodyPose pose_a, BodyShape shape_a,
     met.separations[3] = separation_3;
     met.shift = scale3(motion, time);
     return met;
+}
+
+inline ContactGeometry collide_moving_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
+                                             vec3 motion, Carriers carriers, float max_separation)
+{
+    vec3 start = pose_b.position;
+    ContactGeometry now = no_contact();
+    ContactGeometry met = now;
+    LookAhead ahead = begin_look_ahead();
+    while (!ahead.ends) {
+        pose_b.position = add_scaled(start, motion, ahead.next);
+        met = collide_shapes(pose_a, shape_a, pose_b, shape_b, carriers, max_separation);
+        if (ahead.looks == 0u) now = met;
+        ahead = look_on(ahead, met, motion);
+    }
+    return contact_ahead(now, met, ahead.time, motion);
 }

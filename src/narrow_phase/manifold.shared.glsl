@@ -2,16 +2,16 @@
 // From two bodies to a manifold: the table of shape pairs, the material, and the impulses of the last step.
 // Needs resolution/contact_frame.shared.glsl and resolution/load.shared.glsl.
 
-// One entry a pair of shapes. A new shape adds its entries here. `known`: of two boxes, or no_query().
+// One entry a pair of shapes. A new shape adds its entries here.
 inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
-                                      Carriers carriers, AxisQuery known, float max_separation)
+                                      Carriers carriers, float max_separation)
 {
     precise vec3 offset = pose_b.position - pose_a.position;
     uint type_a = shape_a.type & 255u;
     uint type_b = shape_b.type & 255u;
     ContactGeometry g;
     if (type_a == k_shape_box && type_b == k_shape_box) {
-        g = collide_boxes(make_box_pair(pose_a, shape_a, pose_b, shape_b), carriers, known, max_separation);
+        g = collide_boxes(make_box_pair(pose_a, shape_a, pose_b, shape_b), carriers, max_separation);
     } else if (type_a == k_shape_box || type_b == k_shape_box) {
         vec4 rotation_of_box = pose_a.rotation;
         BodyShape box = shape_a;

@@ -9,7 +9,12 @@ const uint k_polygon_columns = 64u; // the invocations of a work group
 
 shared uvec4 polygon_corners[2u * k_polygon_corners * k_polygon_columns];
 
-// A corner: where it is, and the label of the edge that begins there.
+// Where it is, and the label of the edge that begins there.
+struct Corner {
+    vec3 place;
+    uint label;
+};
+
 struct Polygon {
     uint first; // of the column's rows
     uint count; // corners, at most k_polygon_corners
@@ -25,13 +30,23 @@ uint corner_place(Polygon polygon, uint i)
     return (polygon.first + i) * k_polygon_columns + gl_LocalInvocationIndex;
 }
 
-vec3 corner_of(Polygon polygon, uint i) { return uintBitsToFloat(polygon_corners[corner_place(polygon, i)].xyz); }
-uint label_of(Polygon polygon, uint i) { return polygon_corners[corner_place(polygon, i)].w; }
+Corner corner_at(Polygon polygon, uint i)
+{
+    uvec4 words = polygon_corners[corner_place(polygon, i)];
+    return Corner(uintBitsToFloat(words.xyz), words.w);
+}
+Corner corner_of(Polygon polygon, uint i) { return corner_at(polygon, i); }
+
+// The one behind corner i.
+Corner corner_after(Polygon polygon, uint i)
+{
+    return corner_at(polygon, choose(i + 1u < polygon.count, i + 1u, 0u));
+}
 
 // What does not fit is left out: rounding may ask for a ninth.
-void add_corner(inout Polygon polygon, vec3 corner, uint label)
+void add_corner(inout Polygon polygon, bool is_wanted, vec3 corner, uint label)
 {
-    if (polygon.count < k_polygon_corners) {
+    if (is_wanted && polygon.count < k_polygon_corners) {
         polygon_corners[corner_place(polygon, polygon.count)] = uvec4(floatBitsToUint(corner), label);
         polygon.count += 1u;
     }

@@ -29,17 +29,22 @@ inline Polygon polygon_beside(const Polygon&) {
     return empty_polygon();
 }
 
-inline vec3 corner_of(const Polygon& polygon, uint i) {
-    return polygon.corners[i].place;
+/// `i` is the same for all polygons that are treated side by side; with corner_at() it may be another for each.
+inline Corner corner_of(const Polygon& polygon, uint i) {
+    return polygon.corners[i];
+}
+inline Corner corner_at(const Polygon& polygon, uint i) {
+    return polygon.corners[i];
 }
 
-inline uint label_of(const Polygon& polygon, uint i) {
-    return polygon.corners[i].label;
+/// The one behind corner i.
+inline Corner corner_after(const Polygon& polygon, uint i) {
+    return polygon.corners[i + 1 < polygon.count ? i + 1 : 0];
 }
 
 /// What does not fit is left out: rounding may ask for a ninth.
-inline void add_corner(Polygon& polygon, vec3 corner, uint label) {
-    if (polygon.count == k_polygon_corners) return;
+inline void add_corner(Polygon& polygon, bool is_wanted, vec3 corner, uint label) {
+    if (!is_wanted || polygon.count == k_polygon_corners) return;
     polygon.corners[polygon.count++] = {corner, label};
 }
 

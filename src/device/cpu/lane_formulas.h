@@ -45,12 +45,47 @@ using engine::Parameters; // the same for all lanes
 #include "resolution/hub.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 
+inline Axes choose(bool m, const Axes& yes, const Axes& no) {
+    return {choose(m, yes.x, no.x), choose(m, yes.y, no.y), choose(m, yes.z, no.z)};
+}
+inline BoxPair choose(bool m, const BoxPair& yes, const BoxPair& no) {
+    return {choose(m, yes.a, no.a), choose(m, yes.b, no.b), choose(m, yes.half_a, no.half_a),
+            choose(m, yes.half_b, no.half_b), choose(m, yes.offset, no.offset)};
+}
+
+#include "narrow_phase/contact_geometry.shared.glsl"
+inline Carriers choose(bool m, const Carriers& yes, const Carriers& no) {
+    Carriers chosen;
+    chosen.axis = choose(m, yes.axis, no.axis);
+    for (int i = 0; i < 4; ++i)
+        chosen.features[i] = choose(m, yes.features[i], no.features[i]);
+    return chosen;
+}
+inline ContactGeometry choose(bool m, const ContactGeometry& yes, const ContactGeometry& no) {
+    ContactGeometry chosen;
+    chosen.normal = choose(m, yes.normal, no.normal);
+    chosen.axis = choose(m, yes.axis, no.axis);
+    chosen.shift = choose(m, yes.shift, no.shift);
+    chosen.separation = choose(m, yes.separation, no.separation);
+    chosen.count = choose(m, yes.count, no.count);
+    for (int i = 0; i < 4; ++i) {
+        chosen.points[i] = choose(m, yes.points[i], no.points[i]);
+        chosen.separations[i] = choose(m, yes.separations[i], no.separations[i]);
+        chosen.features[i] = choose(m, yes.features[i], no.features[i]);
+    }
+    return chosen;
+}
+
 struct AxisQuery;
 inline AxisQuery choose(bool, const AxisQuery&, const AxisQuery&);
 #include "narrow_phase/box_axes.shared.glsl"
 inline AxisQuery choose(bool m, const AxisQuery& yes, const AxisQuery& no) {
     return {choose(m, yes.separation, no.separation), choose(m, yes.score, no.score), choose(m, yes.axis, no.axis)};
 }
+
+#include "narrow_phase/lane_polygon.h"
+
+#include "narrow_phase/collide_boxes.shared.glsl"
 
 struct NormalSweep;
 inline NormalSweep choose(bool, const NormalSweep&, const NormalSweep&);

@@ -56,6 +56,10 @@ struct ULanes {
         v &= b.v;
         return *this;
     }
+    TALUS_LANE ULanes& operator|=(ULanes b) {
+        v |= b.v;
+        return *this;
+    }
     TALUS_LANE ULanes operator~() const { return ULanes(UintVector(~v)); }
 };
 
@@ -114,6 +118,9 @@ TALUS_LANE Mask operator&&(Mask a, Mask b) {
 }
 TALUS_LANE Mask operator||(Mask a, Mask b) {
     return Mask(a.v | b.v);
+}
+TALUS_LANE Mask operator!=(Mask a, Mask b) {
+    return Mask(a.v ^ b.v);
 }
 TALUS_LANE Mask operator!(Mask a) {
     return Mask(~a.v);
@@ -187,6 +194,17 @@ TALUS_LANE ULanes max(ULanes a, ULanes b) {
 }
 TALUS_LANE Lanes abs(Lanes x) {
     return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
+}
+
+/// In sums of 2, 4 and 8 bits, as registers cannot count them.
+TALUS_LANE ULanes bitCount(ULanes x) {
+    x = x - ((x >> 1) & 0x55555555u);
+    x = (x & 0x33333333u) + ((x >> 2) & 0x33333333u);
+    return (((x + (x >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
+}
+/// Place of the lowest bit that is set; 32 for 0.
+TALUS_LANE ULanes findLSB(ULanes x) {
+    return bitCount(~x & (x - 1u));
 }
 
 // ---- vectors ----
