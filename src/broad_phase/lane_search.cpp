@@ -42,6 +42,24 @@ void SearchMemory::find_partners(const Aabb& box, uint first, uint end, std::vec
     }
 }
 
+void SearchMemory::keep_unparted(const PlacesView& view, std::vector<uint>& places, std::vector<uint>& partners) const {
+    const uint lanes = lane_search().lanes;
+    const std::size_t count = places.size();
+    std::size_t kept = 0;
+    for (const auto list : {&places, &partners}) // with what fills the last register
+        list->resize((count + lanes - 1) / lanes * lanes, list->empty() ? 0 : list->front());
+    for (std::size_t first = 0; first < count; first += lanes) {
+        const uint parted = lane_search().find_parted(view, &places[first], &partners[first]);
+        for (std::size_t i = first; i < std::min(first + lanes, count); ++i) {
+            if ((parted >> (i - first) & 1u) != 0) continue;
+            places[kept] = places[i];
+            partners[kept++] = partners[i];
+        }
+    }
+    places.resize(kept);
+    partners.resize(kept);
+}
+
 void SearchMemory::search_tree(const TreeView& tree, uint first, uint end, std::vector<uint>& partners,
                                uint* counts) const {
     using Found = std::array<std::vector<uint>, k_most_lanes>;

@@ -23,6 +23,12 @@ struct TreeView {
     uint end;                 ///< of the places that hold a body
 };
 
+/// What the places of a sweep stand for.
+struct PlacesView {
+    const OrientedBox* boxes; ///< of the bodies
+    const uint* bodies;       ///< at the places
+};
+
 /// Called for a partner at a place, with a bit for each lane that it is one of.
 using TakePartner = void (*)(void* context, uint place, uint lanes);
 
@@ -33,6 +39,8 @@ struct LaneSearch {
     void (*take_boxes)(const Aabb* boxes, uint count, void* batch);
     /// Writes which of the boxes `first` to `end` - 1 are candidates to `partners`, in order, and returns how many.
     uint (*find_partners)(const Aabb&, const void* batches, uint first, uint end, uint* partners);
+    /// Of as many pairs of places as there are lanes, a bit for each whose boxes a face parts.
+    uint (*find_parted)(const PlacesView&, const uint* places, const uint* partners);
     /// Goes through the tree with the `count` bodies from the place `first` on, one in each lane, and takes for each
     /// those at later places that are candidates and that no face parts from it, in the order of their places.
     void (*search_tree)(const TreeView&, uint first, uint count, TakePartner take, void* context);
@@ -59,6 +67,8 @@ public:
     void take_boxes(const CpuState&, std::span<const Aabb>);
     /// Appends which of the boxes from `first` to `end` - 1 are candidates.
     void find_partners(const Aabb&, uint first, uint end, std::vector<uint>& partners) const;
+    /// Leaves of pairs of a place and a partner those that no face parts, in order.
+    void keep_unparted(const PlacesView&, std::vector<uint>& places, std::vector<uint>& partners) const;
     /// Appends the partners in the tree of the bodies from `first` to `end` - 1, one body after the other, and writes
     /// how many each has.
     void search_tree(const TreeView&, uint first, uint end, std::vector<uint>& partners, uint* counts) const;

@@ -7,7 +7,11 @@
 namespace talus::engine {
 
 extern const LaneSearch lane_search_avx2;
-const LaneSearch lane_search_avx2{TALUS_LANES, sizeof(lanes_avx2::Aabb), lanes_avx2::take_boxes,
-                                  lanes_avx2::find_partners, lanes_avx2::search_tree};
+const LaneSearch lane_search_avx2{TALUS_LANES,
+                                  sizeof(lanes_avx2::Aabb),
+                                  lanes_avx2::take_boxes,
+                                  lanes_avx2::find_partners,
+                                  lanes_avx2::find_parted,
+                                  lanes_avx2::search_tree};
 
 } // namespace talus::engine

@@ -7,7 +7,11 @@
 namespace talus::engine {
 
 extern const LaneSearch lane_search_base;
-const LaneSearch lane_search_base{TALUS_LANES, sizeof(lanes_base::Aabb), lanes_base::take_boxes,
-                                  lanes_base::find_partners, lanes_base::search_tree};
+const LaneSearch lane_search_base{TALUS_LANES,
+                                  sizeof(lanes_base::Aabb),
+                                  lanes_base::take_boxes,
+                                  lanes_base::find_partners,
+                                  lanes_base::find_parted,
+                                  lanes_base::search_tree};
 
 } // namespace talus::engine

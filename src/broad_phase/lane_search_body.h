@@ -47,6 +47,21 @@ inline std::uint32_t find_partners(const engine::Aabb& box, const void* memory, 
     return count;
 }
 
+TALUS_LANE OrientedBox oriented_boxes_at(const engine::OrientedBox* boxes, const std::uint32_t* bodies) {
+    const auto centre = gather(boxes, bodies, 0), extents = gather(boxes, bodies, 2);
+    return {three_of(centre), centre.w, all_of(gather(boxes, bodies, 1)), three_of(extents),
+            floatBitsToUint(extents.w)};
+}
+
+inline std::uint32_t find_parted(const PlacesView& view, const std::uint32_t* places, const std::uint32_t* partners) {
+    std::uint32_t a[k_lanes], b[k_lanes];
+    for (int lane = 0; lane < k_lanes; ++lane) {
+        a[lane] = view.bodies[places[lane]];
+        b[lane] = view.bodies[partners[lane]];
+    }
+    return bits_of(faces_part(oriented_boxes_at(view.boxes, a), oriented_boxes_at(view.boxes, b)));
+}
+
 inline void search_tree(const TreeView& tree, std::uint32_t first, std::uint32_t count, TakePartner take,
                         void* context) {
     std::uint32_t leaves[k_lanes], bodies[k_lanes];
@@ -57,9 +72,7 @@ inline void search_tree(const TreeView& tree, std::uint32_t first, std::uint32_t
     }
     const auto lower = gather(tree.nodes, leaves, 0), upper = gather(tree.nodes, leaves, 1);
     const Aabb own{three_of(lower), lower.w, three_of(upper), floatBitsToUint(upper.w)};
-    const auto centre = gather(tree.boxes, bodies, 0), extents = gather(tree.boxes, bodies, 2);
-    const OrientedBox own_oriented{three_of(centre), centre.w, all_of(gather(tree.boxes, bodies, 1)), three_of(extents),
-                                   floatBitsToUint(extents.w)};
+    const OrientedBox own_oriented = oriented_boxes_at(tree.boxes, bodies);
     const std::uint32_t all = (1u << count) - 1u;
     std::uint32_t shift = 0;
     for (std::uint32_t place = first + 1; place < tree.end; place += 1u << shift, shift = tree_shift_from(place)) {

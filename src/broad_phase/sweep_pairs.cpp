@@ -17,6 +17,7 @@ void count_partners(CpuState& state, SearchMemory& memory, uint body_count) {
     memory.take_boxes(state, {boxes, body_count});
     SearchMemory::for_each_part(state, body_count, [&](uint part, uint first, uint end) {
         std::vector<uint>& partners = memory.partners_of(part);
+        std::vector<uint> places; // that these are partners of
         partners.clear();
         for (uint place = first; place < end; ++place) {
             const Aabb& box = boxes[place];
@@ -25,18 +26,14 @@ void count_partners(CpuState& state, SearchMemory& memory, uint body_count) {
             const Aabb* const beyond = std::partition_point(boxes + next, boxes + first_large, [&](const Aabb& other) {
                 return component(other.lower, axis.axis) <= limit;
             });
-            const std::size_t before = partners.size();
             memory.find_partners(box, next, static_cast<uint>(beyond - boxes), partners);
             memory.find_partners(box, first_large, axis.end, partners);
-            const OrientedBox& oriented = state.oriented_boxes[state.sort_values[place]];
-            const auto parted = [&](uint partner) {
-                return faces_part(oriented, state.oriented_boxes[state.sort_values[partner]]);
-            };
-            partners.erase(
-                std::remove_if(partners.begin() + static_cast<std::ptrdiff_t>(before), partners.end(), parted),
-                partners.end());
-            state.pair_counts[place] = static_cast<uint>(partners.size() - before);
+            places.resize(partners.size(), place);
         }
+        memory.keep_unparted({state.oriented_boxes.data, state.sort_values.data}, places, partners);
+        std::fill(&state.pair_counts[first], &state.pair_counts[end], 0u);
+        for (const uint place : places)
+            ++state.pair_counts[place];
     });
 }
 

@@ -113,7 +113,7 @@ bool are_boxes(const CpuState& state, const Pair& pair) {
     return is_box(pair.body_a) && is_box(pair.body_b);
 }
 
-constexpr uint k_part = 32; // pairs that a thread treats together, and bits of a word
+constexpr uint k_part = 64; // pairs that a thread treats together, and bits of a word
 
 /// The pairs of a part that have to be collided; the others' manifolds are written.
 uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::array<PairInHand, k_part>& in_hand) {
@@ -121,7 +121,7 @@ uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::a
     const NearPairs near = find_near(state, &state.pairs[first], end - first); // the search saw boxes with a skin
     for (uint index = first; index < end; ++index) {
         const Pair pair = state.pairs[index];
-        const auto is_among = [&](uint pairs) { return (pairs >> (index - first) & 1u) != 0; };
+        const auto is_among = [&](std::uint64_t pairs) { return (pairs >> (index - first) & 1u) != 0; };
         if (state.parameters.rest_steps > 0 && sleeps(state, pair)) {
             keep_manifold(state, index, old_manifold_of(state, index, same_pairs));
             continue;

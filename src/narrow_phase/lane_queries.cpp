@@ -27,14 +27,14 @@ NearPairs find_near(const CpuState& state, const Pair* pairs, uint count) {
     const LaneQueries& queries = lane_queries();
     NearPairs all{};
     uint done = 0;
-    const auto add = [&](const NearPairs& some, uint asked) {
+    const auto add = [&](const NearPairs& some, std::uint64_t asked) {
         all.now |= (some.now & asked) << done;
         all.still |= (some.still & asked) << done;
     };
     for (; done + queries.lanes <= count; done += queries.lanes)
-        add(queries.find_near(state, pairs + done), ~0u);
+        add(queries.find_near(state, pairs + done), ~std::uint64_t{0});
     if (done < count)
-        add(queries.find_near(state, filled_up(pairs + done, pairs + count).data()), (1u << (count - done)) - 1);
+        add(queries.find_near(state, filled_up(pairs + done, pairs + count).data()), (std::uint64_t{1} << (count - done)) - 1);
     return all;
 }
 

@@ -17,10 +17,10 @@ struct alignas(16) BoxQuestion {
     uint had_contact;  ///< 0: they have no last manifold
 };
 
-/// Of up to 32 pairs, a bit for each.
+/// Of up to 64 pairs, a bit for each.
 struct NearPairs {
-    uint now;   ///< is_candidate(), as the bodies are now
-    uint still; ///< is_still_candidate()
+    std::uint64_t now;   ///< is_candidate(), as the bodies are now
+    std::uint64_t still; ///< is_still_candidate()
 };
 
 struct LaneQueries {
@@ -31,7 +31,7 @@ struct LaneQueries {
     void (*collide_boxes)(const CpuState&, const BoxQuestion*, ContactGeometry*);
 };
 
-/// Of at most 32 pairs, with the widest registers that this machine has.
+/// Of at most 64 pairs, with the widest registers that this machine has.
 NearPairs find_near(const CpuState&, const Pair*, uint count);
 
 /// Answers one question after the other, with the widest registers that this machine has.
