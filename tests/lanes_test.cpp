@@ -21,26 +21,17 @@
 
 namespace talus::engine {
 
-extern const LanePasses lane_passes_base, lane_passes_avx2;
-extern const LaneQueries lane_queries_base, lane_queries_avx2;
-extern const LaneSearch lane_search_base, lane_search_avx2;
+TALUS_DECLARE_OF_SETS(LanePasses, lane_passes);
+TALUS_DECLARE_OF_SETS(LaneQueries, lane_queries);
+TALUS_DECLARE_OF_SETS(LaneSearch, lane_search);
 
 namespace {
 
-#ifdef TALUS_HAS_AVX2
 /// Those that this machine can run.
-template <typename T> std::vector<const T*> runnable(const T& base, const T& avx2) {
-    std::vector<const T*> all{&base};
-    if (has_avx2()) all.push_back(&avx2);
-    return all;
+template <typename T, std::size_t count> std::vector<const T*> runnable(const std::array<const T*, count>& of_sets) {
+    return {of_sets.begin(), of_sets.begin() + runnable_sets()};
 }
-#define TALUS_RUNNABLE(name) runnable(name##_base, name##_avx2)
-#else
-#define TALUS_RUNNABLE(name)                                                                                           \
-    std::vector {                                                                                                      \
-        &name##_base                                                                                                   \
-    }
-#endif
+#define TALUS_RUNNABLE(name) runnable(TALUS_OF_SETS(name))
 
 /// Constraints each of two bodies of their own, or of one and a body that many share: a static one, or a hub.
 struct Items {
@@ -523,6 +514,31 @@ ContactGeometry collide(const CpuState& state, const BoxQuestion& question) {
                           contact_reach(motion, question.had_contact != 0, state.parameters));
 }
 
+TEST(Lanes, find_parted_as_one_at_a_time) {
+    const TreeOfBoxes boxes(200, 200);
+    std::vector<uint> places, partners;
+    for (uint i = 0; i < 1'000; ++i) {
+        places.push_back(i * 7 % 200);
+        partners.push_back(i * 13 % 200);
+    }
+    const auto is_parted = [&](std::size_t i) {
+        return faces_part(boxes.boxes[boxes.bodies[places[i]]], boxes.boxes[boxes.bodies[partners[i]]]);
+    };
+    for (const LaneSearch* search : TALUS_RUNNABLE(lane_search)) {
+        int parted = 0;
+        for (std::size_t first = 0; first + search->lanes <= places.size(); first += search->lanes) {
+            const uint found =
+                search->find_parted({boxes.boxes.data(), boxes.bodies.data()}, &places[first], &partners[first]);
+            for (uint lane = 0; lane < search->lanes; ++lane) {
+                EXPECT_EQ((found >> lane & 1u) != 0, is_parted(first + lane)) << first + lane;
+                parted += is_parted(first + lane) ? 1 : 0;
+            }
+        }
+        EXPECT_GT(parted, 100);
+        EXPECT_LT(parted, 950);
+    }
+}
+
 TEST(Lanes, collide_boxes_with_the_bits_of_one_at_a_time) {
     const FlushDenormals flush;
     Items items(1, 0.0f);
@@ -610,9 +626,9 @@ TEST(Lanes, find_near_as_one_at_a_time) {
                 expect_near(found, lane, pairs[first + lane], true);
         }
     }
-    for (uint count = 1; count <= 32; ++count) { // also such as fill no register
+    for (uint count = 1; count <= 64; ++count) { // also such as fill no register
         const NearPairs found = find_near(state, pairs.data(), count);
-        for (uint i = 0; i < 32; ++i)
+        for (uint i = 0; i < 64; ++i)
             expect_near(found, i, pairs[i], i < count);
     }
 }

@@ -9,8 +9,7 @@
 
 namespace talus::engine {
 
-// One a file, as each is compiled for its own instructions.
-extern const LaneSearch lane_search_base, lane_search_avx2;
+TALUS_DECLARE_OF_SETS(LaneSearch, lane_search);
 
 static const LaneSearch& lane_search() {
     return TALUS_FOR_THIS_MACHINE(lane_search);

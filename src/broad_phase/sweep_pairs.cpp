@@ -19,14 +19,18 @@ void count_partners(CpuState& state, SearchMemory& memory, uint body_count) {
         std::vector<uint>& partners = memory.partners_of(part);
         std::vector<uint> places; // that these are partners of
         partners.clear();
+        uint beyond = first; // the first that begins where a box has ended
         for (uint place = first; place < end; ++place) {
             const Aabb& box = boxes[place];
             const float limit = component(box.upper, axis.axis);
             const uint next = place + 1, first_large = std::max(axis.first_large, next);
-            const Aabb* const beyond = std::partition_point(boxes + next, boxes + first_large, [&](const Aabb& other) {
-                return component(other.lower, axis.axis) <= limit;
-            });
-            memory.find_partners(box, next, static_cast<uint>(beyond - boxes), partners);
+            const auto begins_beyond = [&](uint other) { return component(boxes[other].lower, axis.axis) > limit; };
+            beyond = std::clamp(beyond, next, first_large); // near that of the place before
+            while (beyond < first_large && !begins_beyond(beyond))
+                ++beyond;
+            while (beyond > next && begins_beyond(beyond - 1))
+                --beyond;
+            memory.find_partners(box, next, beyond, partners);
             memory.find_partners(box, first_large, axis.end, partners);
             places.resize(partners.size(), place);
         }

@@ -37,7 +37,7 @@ inline Corner corner_from(FourLanes words) {
 
 /// Of row i.
 inline Corner corner_in_row(Polygon polygon, std::uint32_t i) {
-    const auto* const row = reinterpret_cast<const FloatVector*>(&polygon.rows[i]);
+    const FloatVector* const row = reinterpret_cast<const FloatVector*>(&polygon.rows[i]);
     return corner_from(transposed({Lanes(row[0]), Lanes(row[1]), Lanes(row[2]), Lanes(row[3])}));
 }
 

@@ -8,8 +8,7 @@
 
 namespace talus::engine {
 
-// One a file, as each is compiled for its own instructions.
-extern const LaneQueries lane_queries_base, lane_queries_avx2;
+TALUS_DECLARE_OF_SETS(LaneQueries, lane_queries);
 
 static const LaneQueries& lane_queries() {
     return TALUS_FOR_THIS_MACHINE(lane_queries);
@@ -34,7 +33,8 @@ NearPairs find_near(const CpuState& state, const Pair* pairs, uint count) {
     for (; done + queries.lanes <= count; done += queries.lanes)
         add(queries.find_near(state, pairs + done), ~std::uint64_t{0});
     if (done < count)
-        add(queries.find_near(state, filled_up(pairs + done, pairs + count).data()), (std::uint64_t{1} << (count - done)) - 1);
+        add(queries.find_near(state, filled_up(pairs + done, pairs + count).data()),
+            (std::uint64_t{1} << (count - done)) - 1);
     return all;
 }
 

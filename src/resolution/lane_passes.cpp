@@ -7,8 +7,7 @@
 #include "resolution/body_passes.h"
 
 namespace talus::engine {
-// One a file, as each is compiled for its own instructions.
-extern const LanePasses lane_passes_base, lane_passes_avx2;
+TALUS_DECLARE_OF_SETS(LanePasses, lane_passes);
 
 const LanePasses& lane_passes() {
     return TALUS_FOR_THIS_MACHINE(lane_passes);

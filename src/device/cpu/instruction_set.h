@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Which of the files that are compiled for a set of instructions this machine can run.
+// The sets of instructions that some files are compiled for (src/CMakeLists.txt), and which of them this machine can
+// run.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace talus::engine {
@@ -9,16 +12,41 @@ namespace talus::engine {
 /// Items side by side in the widest registers.
 inline constexpr std::uint32_t k_most_lanes = 8;
 
-#ifdef TALUS_HAS_AVX2
-inline bool has_avx2() {
-    static const bool has_it = __builtin_cpu_supports("avx2") != 0;
-    return has_it;
-}
+// What such a file defines has the set that it is compiled for at the end of its name.
+#define TALUS_OF_SET(name) TALUS_JOINED(name, TALUS_SET)
+#define TALUS_JOINED(name, set) TALUS_JOINED_NAMES(name, set)
+#define TALUS_JOINED_NAMES(name, set) name##_##set
 
-/// Of what is compiled for each set of instructions, that with the widest registers that this machine has.
-#define TALUS_FOR_THIS_MACHINE(name) (has_avx2() ? name##_avx2 : name##_base)
+#ifdef TALUS_HAS_AVX
+#define TALUS_DECLARE_OF_SETS(type, name) extern const type name##_base, name##_avx2, name##_avx512
+/// Pointers to what there is of each set, those that need the most behind the others.
+#define TALUS_OF_SETS(name)                                                                                            \
+    std::array {                                                                                                       \
+        &name##_base, &name##_avx2, &name##_avx512                                                                     \
+    }
+
+/// How many of the sets this machine can run.
+inline std::size_t runnable_sets() {
+    static const std::size_t count = [] {
+        if (!__builtin_cpu_supports("avx2")) return std::size_t{1};
+        const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                                __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+        return std::size_t{has_avx512 ? 3u : 2u};
+    }();
+    return count;
+}
 #else
-#define TALUS_FOR_THIS_MACHINE(name) name##_base
+#define TALUS_DECLARE_OF_SETS(type, name) extern const type name##_base
+#define TALUS_OF_SETS(name)                                                                                            \
+    std::array {                                                                                                       \
+        &name##_base                                                                                                   \
+    }
+inline std::size_t runnable_sets() {
+    return 1;
+}
 #endif
+
+/// The quickest that this machine can run.
+#define TALUS_FOR_THIS_MACHINE(name) (*TALUS_OF_SETS(name)[runnable_sets() - 1])
 
 } // namespace talus::engine

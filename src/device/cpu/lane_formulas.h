@@ -57,8 +57,10 @@ inline BoxPair choose(bool m, const BoxPair& yes, const BoxPair& no) {
 inline Carriers choose(bool m, const Carriers& yes, const Carriers& no) {
     Carriers chosen;
     chosen.axis = choose(m, yes.axis, no.axis);
-    for (int i = 0; i < 4; ++i)
-        chosen.features[i] = choose(m, yes.features[i], no.features[i]);
+    chosen.features[0] = choose(m, yes.features[0], no.features[0]);
+    chosen.features[1] = choose(m, yes.features[1], no.features[1]);
+    chosen.features[2] = choose(m, yes.features[2], no.features[2]);
+    chosen.features[3] = choose(m, yes.features[3], no.features[3]);
     return chosen;
 }
 inline ContactGeometry choose(bool m, const ContactGeometry& yes, const ContactGeometry& no) {
@@ -68,11 +70,15 @@ inline ContactGeometry choose(bool m, const ContactGeometry& yes, const ContactG
     chosen.shift = choose(m, yes.shift, no.shift);
     chosen.separation = choose(m, yes.separation, no.separation);
     chosen.count = choose(m, yes.count, no.count);
-    for (int i = 0; i < 4; ++i) {
+    const auto choose_point = [&](int i) __attribute__((always_inline)) {
         chosen.points[i] = choose(m, yes.points[i], no.points[i]);
         chosen.separations[i] = choose(m, yes.separations[i], no.separations[i]);
         chosen.features[i] = choose(m, yes.features[i], no.features[i]);
-    }
+    };
+    choose_point(0);
+    choose_point(1);
+    choose_point(2);
+    choose_point(3);
     return chosen;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// LanePasses for one set of instructions. Included once by each lane_passes_*.cpp.
-#pragma once
-
+// LanePasses for one set of instructions: src/CMakeLists.txt compiles this once for each.
+#include "device/cpu/instruction_set.h"
 #include "device/cpu/lane_formulas.h"
 #include "resolution/lane_passes.h"
 
@@ -526,3 +525,17 @@ inline std::uint32_t integrate_batch(const CpuState& state, std::uint32_t tick, 
 }
 
 } // namespace talus::engine::TALUS_LANES_NAME
+
+namespace talus::engine {
+
+extern const LanePasses TALUS_OF_SET(lane_passes);
+const LanePasses TALUS_OF_SET(lane_passes){TALUS_LANES,
+                                           TALUS_LANES_NAME::prepare_contacts,
+                                           sizeof(TALUS_LANES_NAME::ConstraintBatch),
+                                           TALUS_LANES_NAME::take_constraints,
+                                           TALUS_LANES_NAME::pass_over_batch,
+                                           sizeof(TALUS_LANES_NAME::BodyBatch),
+                                           TALUS_LANES_NAME::take_bodies,
+                                           TALUS_LANES_NAME::integrate_batch};
+
+} // namespace talus::engine

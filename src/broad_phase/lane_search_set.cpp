@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// LaneSearch for one set of instructions. Included once by each lane_search_*.cpp.
-#pragma once
-
+// LaneSearch for one set of instructions: src/CMakeLists.txt compiles this once for each.
 #include "broad_phase/lane_search.h"
+#include "device/cpu/instruction_set.h"
 #include "device/cpu/lane_formulas.h"
 
 namespace talus::engine::TALUS_LANES_NAME {
@@ -95,3 +94,15 @@ inline void search_tree(const TreeView& tree, std::uint32_t first, std::uint32_t
 }
 
 } // namespace talus::engine::TALUS_LANES_NAME
+
+namespace talus::engine {
+
+extern const LaneSearch TALUS_OF_SET(lane_search);
+const LaneSearch TALUS_OF_SET(lane_search){TALUS_LANES,
+                                           sizeof(TALUS_LANES_NAME::Aabb),
+                                           TALUS_LANES_NAME::take_boxes,
+                                           TALUS_LANES_NAME::find_partners,
+                                           TALUS_LANES_NAME::find_parted,
+                                           TALUS_LANES_NAME::search_tree};
+
+} // namespace talus::engine

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// LaneQueries for one set of instructions. Included once by each lane_queries_*.cpp.
-#pragma once
-
+// LaneQueries for one set of instructions: src/CMakeLists.txt compiles this once for each.
+#include "device/cpu/instruction_set.h"
 #include "device/cpu/lane_formulas.h"
 #include "narrow_phase/lane_queries.h"
 
@@ -56,20 +55,25 @@ inline NearPairs find_near(const CpuState& state, const engine::Pair* pairs) {
     return {bits_of(is_candidate(a, b)), bits_of(is_still_candidate(a, b))};
 }
 
-typedef float Word __attribute__((may_alias));
-
-/// Writes a record of each lane, whose members follow each other as they do in the lanes' own.
-template <typename RecordOfLanes, typename Record> TALUS_LANE void put(const RecordOfLanes& lanes, Record* records) {
-    constexpr std::size_t k_words = sizeof(Record) / 4;
-    static_assert(sizeof(RecordOfLanes) == k_words * sizeof(Lanes));
-    const auto* const words = reinterpret_cast<const Lanes*>(&lanes);
-    constexpr std::size_t k_cells = k_words / 4;
-    for (std::size_t cell = 0; cell < k_cells; ++cell)
-        scatter(records, k_places, cell, k_lane_mask,
-                {words[4 * cell], words[4 * cell + 1], words[4 * cell + 2], words[4 * cell + 3]});
-    for (std::size_t word = 4 * k_cells; word < k_words; ++word)
-        for (int lane = 0; lane < k_lanes; ++lane)
-            reinterpret_cast<Word*>(&records[lane])[word] = words[word].v[lane];
+/// Cell by cell, as contact_geometry.shared.glsl has them.
+TALUS_LANE void put_geometries(const ContactGeometry& g, engine::ContactGeometry* to) {
+    const auto put = [&](std::size_t cell, Lanes x, Lanes y, Lanes z, Lanes w) __attribute__((always_inline)) {
+        scatter(to, k_places, cell, k_lane_mask, {x, y, z, w});
+    };
+    const vec3* const p = g.points;
+    const Lanes* const s = g.separations;
+    const auto feature = [&](int i) __attribute__((always_inline)) {
+        return uintBitsToFloat(g.features[i]);
+    };
+    put(0, g.normal.x, g.normal.y, g.normal.z, uintBitsToFloat(g.axis));
+    put(1, g.shift.x, g.shift.y, g.shift.z, g.separation);
+    put(2, uintBitsToFloat(g.count), p[0].x, p[0].y, p[0].z);
+    put(3, p[1].x, p[1].y, p[1].z, p[2].x);
+    put(4, p[2].y, p[2].z, p[3].x, p[3].y);
+    put(5, p[3].z, s[0], s[1], s[2]);
+    put(6, s[3], feature(0), feature(1), feature(2));
+    for (int lane = 0; lane < k_lanes; ++lane)
+        to[lane].features[3] = g.features[3].v[lane];
 }
 
 inline void collide_boxes(const CpuState& state, const BoxQuestion* questions, engine::ContactGeometry* answers) {
@@ -85,7 +89,14 @@ inline void collide_boxes(const CpuState& state, const BoxQuestion* questions, e
     pose_b.position = add_scaled(pose_b.position, motion, second.w);
     const BoxPair boxes =
         make_box_pair(poses_at(state, bodies.a), shapes_at(state, bodies.a), pose_b, shapes_at(state, bodies.b));
-    put(collide_boxes(boxes, carriers, contact_reach(motion, had_contact != 0u, state.parameters)), answers);
+    put_geometries(collide_boxes(boxes, carriers, contact_reach(motion, had_contact != 0u, state.parameters)), answers);
 }
 
 } // namespace talus::engine::TALUS_LANES_NAME
+
+namespace talus::engine {
+
+extern const LaneQueries TALUS_OF_SET(lane_queries);
+const LaneQueries TALUS_OF_SET(lane_queries){TALUS_LANES, TALUS_LANES_NAME::find_near, TALUS_LANES_NAME::collide_boxes};
+
+} // namespace talus::engine
