@@ -400,6 +400,59 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
     }
 }
 
+TEST(Lanes, update_boxes_and_find_strays_as_one_at_a_time) {
+    const FlushDenormals flush;
+    Items items(7, 0.0f);
+    for (uint i = 0; i < Items::k_bodies; ++i) {
+        const uint kind = i % 9 == 8 ? k_kind_absent : i % 3 == 0 ? k_kind_static : k_kind_rigid;
+        items.shapes[i] = {vec3(0.3f) + items.vector(0.2f), (i % 5 == 4 ? k_shape_sphere : k_shape_box) | kind << 8};
+    }
+    for (const LaneSearch* search : TALUS_RUNNABLE(lane_search)) {
+        SCOPED_TRACE(std::to_string(search->lanes) + " lanes");
+        std::vector<OrientedBox> boxes(Items::k_bodies + 1);
+        std::vector<Aabb> aabbs(Items::k_bodies + 1);
+        CpuState state = items.state();
+        state.oriented_boxes = {boxes.data(), boxes.size()};
+        state.aabbs = {aabbs.data(), aabbs.size()};
+        const auto for_parts = [&](const auto& part) { // of every size
+            for (uint first = 0, count = 1; first < Items::k_bodies; first += count, count = 1 + first % search->lanes)
+                part(first, min(count, Items::k_bodies - first));
+        };
+        for_parts([&](uint first, uint count) {
+            search->update_boxes(state, first, count);
+            EXPECT_EQ(boxes[first + count].type, 0u) << "a body that was not asked for";
+        });
+        for (uint i = 0; i < Items::k_bodies; ++i) {
+            const OrientedBox box = box_with_skin(state, i);
+            const Aabb aabb = compute_aabb(box);
+            EXPECT_EQ(std::memcmp(&box, &boxes[i], sizeof box), 0) << i;
+            EXPECT_EQ(std::memcmp(&aabb, &aabbs[i], sizeof aabb), 0) << i;
+        }
+
+        const std::vector<BodyPose> before = items.poses;
+        for (uint i = 0; i < Items::k_bodies; ++i) {
+            items.poses[i].position += items.vector(i % 2 == 0 ? 0.002f : 0.0f);
+            if (i % 4 == 1) items.poses[i].rotation = normalise_quaternion(items.poses[i].rotation + vec4(0.01f));
+            if (i % 7 == 0) items.shapes[i].half_extents.y += 1.0e-3f;
+        }
+        state = items.state();
+        state.oriented_boxes = {boxes.data(), boxes.size()};
+        uint strays = 0;
+        for_parts([&](uint first, uint count) {
+            const uint found = search->find_strays(state, first, count);
+            EXPECT_LT(found, 1u << count);
+            for (uint i = 0; i < count; ++i) {
+                const bool strayed = !is_within(box_now(state, first + i), boxes[first + i]);
+                EXPECT_EQ((found >> i & 1u) != 0, strayed) << first + i;
+                strays += strayed ? 1 : 0;
+            }
+        });
+        EXPECT_GT(strays, 10u);
+        EXPECT_LT(strays, Items::k_bodies - 10);
+        items.poses = before;
+    }
+}
+
 TEST(Lanes, find_partners_as_one_at_a_time) {
     std::mt19937 random(5);
     const auto number = [&](float size) { return std::uniform_real_distribution<float>(-size, size)(random); };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of find_strays.comp.glsl.
 #include <atomic>
+#include <bit>
 
-#include "broad_phase/box_now.h"
 #include "broad_phase/broad_phase.h"
+#include "broad_phase/lane_search.h"
 
 namespace talus::engine {
 
@@ -16,14 +17,15 @@ static void find_strays_on_cpu(CpuState& state, const Launch&) {
         other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
     const uint most = most_strays(body_count);
     std::atomic<uint> count = other_list ? most + 1 : 0;
-    state.parallel(other_list ? 0 : body_count, [&](uint body) {
+    for_bodies_in_lanes(state, other_list ? 0 : body_count, [&](uint first, uint bodies) {
         if (count.load(std::memory_order_relaxed) > most) return;
-        if (is_within(box_now(state, body), state.oriented_boxes[body])) return;
-        const uint place = takes_all ? most : count.fetch_add(1, std::memory_order_relaxed);
-        if (place < most)
-            state.strays[place] = body;
-        else
-            count.store(most + 1, std::memory_order_relaxed);
+        for (uint strays = lane_search().find_strays(state, first, bodies); strays != 0; strays &= strays - 1) {
+            const uint place = takes_all ? most : count.fetch_add(1, std::memory_order_relaxed);
+            if (place < most)
+                state.strays[place] = first + static_cast<uint>(std::countr_zero(strays));
+            else
+                count.store(most + 1, std::memory_order_relaxed);
+        }
     });
     if (count > most)
         counters[k_counter_search_count] = body_count;

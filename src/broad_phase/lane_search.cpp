@@ -11,7 +11,7 @@ namespace talus::engine {
 
 TALUS_DECLARE_OF_SETS(LaneSearch, lane_search);
 
-static const LaneSearch& lane_search() {
+const LaneSearch& lane_search() {
     return TALUS_FOR_THIS_MACHINE(lane_search);
 }
 

@@ -33,7 +33,11 @@ struct PlacesView {
 using TakePartner = void (*)(void* context, uint place, uint lanes);
 
 struct LaneSearch {
-    uint lanes;              ///< boxes side by side
+    uint lanes; ///< boxes side by side
+    /// The boxes that a search has of at most as many bodies as there are lanes, from `first` on.
+    void (*update_boxes)(const CpuState&, uint first, uint count);
+    /// Of such bodies, a bit for each that is not within the box that the last search had of it.
+    uint (*find_strays)(const CpuState&, uint first, uint count);
     std::size_t batch_bytes; ///< of as many boxes in the form of lanes
     /// Makes a batch of at most as many boxes as there are lanes.
     void (*take_boxes)(const Aabb* boxes, uint count, void* batch);
@@ -45,6 +49,16 @@ struct LaneSearch {
     /// those at later places that are candidates and that no face parts from it, in the order of their places.
     void (*search_tree)(const TreeView&, uint first, uint count, TakePartner take, void* context);
 };
+
+/// With the widest registers that this machine has.
+const LaneSearch& lane_search();
+
+/// Calls part(first, count) for all of `count` bodies, as many at a time as there are lanes, on all threads.
+template <typename Part> void for_bodies_in_lanes(const CpuState& state, uint count, const Part& part) {
+    const uint lanes = lane_search().lanes;
+    const auto call = [&](uint index) { part(index * lanes, std::min(lanes, count - index * lanes)); };
+    state.parallel((count + lanes - 1) / lanes, call, k_parallel_grain / lanes);
+}
 
 /// What the launches of a search keep: boxes in the form of lanes, and the partners that were found when they were
 /// counted.

@@ -2,7 +2,7 @@
 // LaneSearch for one set of instructions: src/CMakeLists.txt compiles this once for each.
 #include "broad_phase/lane_search.h"
 #include "device/cpu/instruction_set.h"
-#include "device/cpu/lane_formulas.h"
+#include "device/cpu/lane_records.h"
 
 namespace talus::engine::TALUS_LANES_NAME {
 
@@ -21,6 +21,38 @@ TALUS_LANE int findLSB(std::uint32_t value) {
 #include "broad_phase/tree.shared.glsl"
 #undef inline
 #pragma GCC diagnostic pop
+
+/// From `first` on; where there are fewer bodies than lanes, the last one again.
+struct BodiesInTurn {
+    std::uint32_t of_lane[k_lanes];
+};
+TALUS_LANE BodiesInTurn bodies_from(std::uint32_t first, std::uint32_t count) {
+    BodiesInTurn bodies;
+    for (std::uint32_t lane = 0; lane < k_lanes; ++lane)
+        bodies.of_lane[lane] = first + (lane < count ? lane : count - 1);
+    return bodies;
+}
+
+inline void update_boxes(const CpuState& state, std::uint32_t first, std::uint32_t count) {
+    const BodiesInTurn bodies = bodies_from(first, count);
+    const std::uint32_t lanes = (1u << count) - 1u;
+    const OrientedBox box = with_skin(boxes_now(state, bodies.of_lane), state.parameters);
+    const Aabb aabb = compute_aabb(box);
+    engine::OrientedBox* const boxes = state.oriented_boxes.data;
+    scatter(boxes, bodies.of_lane, 0, lanes, {box.centre.x, box.centre.y, box.centre.z, box.margin});
+    scatter(boxes, bodies.of_lane, 1, lanes, {box.rotation.x, box.rotation.y, box.rotation.z, box.rotation.w});
+    scatter(boxes, bodies.of_lane, 2, lanes,
+            {box.half_extents.x, box.half_extents.y, box.half_extents.z, uintBitsToFloat(box.type)});
+    scatter(state.aabbs.data, bodies.of_lane, 0, lanes, {aabb.lower.x, aabb.lower.y, aabb.lower.z, aabb.margin});
+    scatter(state.aabbs.data, bodies.of_lane, 1, lanes,
+            {aabb.upper.x, aabb.upper.y, aabb.upper.z, uintBitsToFloat(aabb.movable)});
+}
+
+inline std::uint32_t find_strays(const CpuState& state, std::uint32_t first, std::uint32_t count) {
+    const BodiesInTurn bodies = bodies_from(first, count);
+    const OrientedBox searched = oriented_boxes_at(state.oriented_boxes.data, bodies.of_lane);
+    return ~bits_of(is_within(boxes_now(state, bodies.of_lane), searched)) & ((1u << count) - 1u);
+}
 
 inline void take_boxes(const engine::Aabb* boxes, std::uint32_t count, void* memory) {
     std::uint32_t places[k_lanes];
@@ -44,12 +76,6 @@ inline std::uint32_t find_partners(const engine::Aabb& box, const void* memory, 
             partners[count++] = place + static_cast<std::uint32_t>(__builtin_ctz(found));
     }
     return count;
-}
-
-TALUS_LANE OrientedBox oriented_boxes_at(const engine::OrientedBox* boxes, const std::uint32_t* bodies) {
-    const auto centre = gather(boxes, bodies, 0), extents = gather(boxes, bodies, 2);
-    return {three_of(centre), centre.w, all_of(gather(boxes, bodies, 1)), three_of(extents),
-            floatBitsToUint(extents.w)};
 }
 
 inline std::uint32_t find_parted(const PlacesView& view, const std::uint32_t* places, const std::uint32_t* partners) {
@@ -99,6 +125,8 @@ namespace talus::engine {
 
 extern const LaneSearch TALUS_OF_SET(lane_search);
 const LaneSearch TALUS_OF_SET(lane_search){TALUS_LANES,
+                                           TALUS_LANES_NAME::update_boxes,
+                                           TALUS_LANES_NAME::find_strays,
                                            sizeof(TALUS_LANES_NAME::Aabb),
                                            TALUS_LANES_NAME::take_boxes,
                                            TALUS_LANES_NAME::find_partners,

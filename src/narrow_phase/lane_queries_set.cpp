@@ -1,34 +1,10 @@
 // SPDX-License-Identifier: MIT
 // LaneQueries for one set of instructions: src/CMakeLists.txt compiles this once for each.
 #include "device/cpu/instruction_set.h"
-#include "device/cpu/lane_formulas.h"
+#include "device/cpu/lane_records.h"
 #include "narrow_phase/lane_queries.h"
 
 namespace talus::engine::TALUS_LANES_NAME {
-
-TALUS_LANE BodyPose poses_at(const CpuState& state, const std::uint32_t* bodies) {
-    const auto position = gather(state.poses.data, bodies, 0);
-    return {three_of(position), floatBitsToUint(position.w), all_of(gather(state.poses.data, bodies, 1))};
-}
-
-/// The linear ones are all that is asked for.
-TALUS_LANE BodyVelocity velocities_at(const CpuState& state, const std::uint32_t* bodies) {
-    BodyVelocity velocity;
-    velocity.linear = three_of(gather(state.velocities.data, bodies, 0));
-    return velocity;
-}
-
-TALUS_LANE BodyShape shapes_at(const CpuState& state, const std::uint32_t* bodies) {
-    const auto shape = gather(state.shapes.data, bodies, 0);
-    return {three_of(shape), floatBitsToUint(shape.w)};
-}
-
-/// Of what lies one behind the other.
-#if TALUS_LANES == 4
-constexpr std::uint32_t k_places[k_lanes] = {0, 1, 2, 3};
-#else
-constexpr std::uint32_t k_places[k_lanes] = {0, 1, 2, 3, 4, 5, 6, 7};
-#endif
 
 /// Of a Pair or a BoxQuestion in each lane.
 struct BodiesOfPairs {
@@ -44,14 +20,9 @@ template <typename Item> TALUS_LANE BodiesOfPairs bodies_of(const Item* items) {
     return bodies;
 }
 
-TALUS_LANE Aabb aabbs_now(const CpuState& state, const std::uint32_t* bodies) {
-    return compute_aabb(make_oriented_box(poses_at(state, bodies), velocities_at(state, bodies),
-                                          shapes_at(state, bodies), state.parameters));
-}
-
 inline NearPairs find_near(const CpuState& state, const engine::Pair* pairs) {
     const BodiesOfPairs bodies = bodies_of(pairs);
-    const Aabb a = aabbs_now(state, bodies.a), b = aabbs_now(state, bodies.b);
+    const Aabb a = compute_aabb(boxes_now(state, bodies.a)), b = compute_aabb(boxes_now(state, bodies.b));
     return {bits_of(is_candidate(a, b)), bits_of(is_still_candidate(a, b))};
 }
 
