@@ -13,6 +13,7 @@
 #include <zstd.h>
 
 #include "devices.h"
+#include "parameters.h"
 #include "scenes/scene.h"
 #include "state/formulas.h"
 
@@ -135,6 +136,37 @@ TEST_P(SnapshotOnDevice, wakes_whom_the_next_step_was_to_wake) {
     EXPECT_EQ(world.report().sleeping_bodies, 0u);
     world.restore(between);
     EXPECT_EQ(hashes_of_steps(world, 3), first);
+}
+
+TEST_P(SnapshotOnDevice, keeps_a_contact_of_bodies_so_far_apart_that_none_would_begin) {
+    Settings weightless;
+    weightless.gravity = {0.0f, 0.0f, 0.0f};
+    const float gap = engine::make_parameters(weightless, {}).speculative_distance - 1.0e-4f; // m
+    const auto add_boxes = [](World& world, float apart) {
+        BodyDefinition below, above;
+        below.kind = BodyKind::Static;
+        above.pose.position = {0.0f, 1.0f + apart, 0.0f};
+        above.velocity.linear = {0.0f, 3.0e-3f, 0.0f}; // 0.05 mm a step
+        world.add(std::vector{below, above});
+    };
+    World world = make_world(weightless), restored = make_world(weightless), later = make_world(weightless);
+    add_boxes(world, gap);
+    world.step(5);
+    ASSERT_EQ(world.report().manifolds, 1u);
+    restored.restore(world.snapshot());
+    add_boxes(later, gap + 5 * 5.0e-5f);
+    later.step();
+    EXPECT_EQ(later.report().manifolds, 0u) << "so a contact there lasts, but does not begin";
+    for (int step = 5; step < 12; ++step) {
+        world.step();
+        restored.step();
+        EXPECT_EQ(restored.report().manifolds, world.report().manifolds) << step;
+        EXPECT_EQ(restored.state_hash(), world.state_hash()) << step;
+        if (step == 5) {
+            EXPECT_EQ(world.report().manifolds, 1u);
+        }
+    }
+    EXPECT_EQ(world.report().manifolds, 0u);
 }
 
 TEST_P(SnapshotOnDevice, lets_a_body_in_a_used_slot_sleep_as_the_world_would) {

@@ -131,17 +131,15 @@ inline uint count_earlier(uint used_low, uint used_high, uint colour)
            uint(bitCount(colour < 32u ? 0u : used_high & below));
 }
 
-inline bool is_last_colour(uint used_low, uint used_high, uint colour)
-{
-    return count_earlier(used_low, used_high, colour) + 1u == count_earlier(used_low, used_high, k_first_hub_colour);
-}
-
-// See contact_counts.shared.glsl. `pushed`: whether contacts push the body; `earlier_shift`, `last_shift`: those of A, or of B.
-inline uint order_at_body(bool pushed, uint used_low, uint used_high, uint colour, uint earlier_shift, uint last_shift)
+// See contact_counts.shared.glsl. `pushed`: whether contacts push the body; `contacts`: those that it has in these colours;
+// `earlier_shift`, `last_shift`: those of A, or of B.
+inline uint order_at_body(bool pushed, uint contacts, uint used_low, uint used_high, uint colour, uint earlier_shift,
+                          uint last_shift)
 {
     if (!pushed || colour >= k_first_hub_colour) return 0u;
-    uint last = is_last_colour(used_low, used_high, colour) ? 1u : 0u;
-    return count_earlier(used_low, used_high, colour) << earlier_shift | last << last_shift;
+    uint earlier = count_earlier(used_low, used_high, colour);
+    uint last = choose(earlier + 1u == contacts, 1u, 0u);
+    return earlier << earlier_shift | last << last_shift;
 }
 
 // ---- hubs ----

@@ -50,7 +50,7 @@ float share_of_contact(Manifold manifold, uint pair, uint colour)
 
 uint order_at(uint body, uint its_traits, uint colour, uint earlier_shift, uint last_shift)
 {
-    return order_at_body(is_pushed(its_traits), body_colours[body_word(body, k_used_low)],
+    return order_at_body(is_pushed(its_traits), contacts_of_body(its_traits), body_colours[body_word(body, k_used_low)],
                          body_colours[body_word(body, k_used_high)], colour, earlier_shift, last_shift);
 }
 

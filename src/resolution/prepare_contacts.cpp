@@ -22,7 +22,8 @@ static float share_of_contact(const CpuState& state, uint pair, uint colour) {
 
 static uint order_at(const CpuState& state, uint body, uint colour, uint earlier_shift, uint last_shift) {
     const uint* const words = &state.body_colours[body_word(body, 0)];
-    return order_at_body(is_pushed(state.inertias[body].traits), words[k_used_low], words[k_used_high], colour,
+    const uint traits = state.inertias[body].traits;
+    return order_at_body(is_pushed(traits), contacts_of_body(traits), words[k_used_low], words[k_used_high], colour,
                          earlier_shift, last_shift);
 }
 
