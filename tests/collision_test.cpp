@@ -308,7 +308,7 @@ TEST(BoxBox, reduction_keeps_the_deepest_of_any_polygon_and_no_more_than_four) {
             const float angle =
                 2.0f * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(polygon.count);
             const float z = samples.number(-0.01f, 0.01f);
-            polygon.corners[k].place = vec3(std::cos(angle), samples.number(0.5f, 1.0f) * std::sin(angle), z);
+            polygon.corners[k].position = vec3(std::cos(angle), samples.number(0.5f, 1.0f) * std::sin(angle), z);
             lowest = std::min(lowest, z);
         }
         const uint kept = reduce_points(polygon, no_carriers());
@@ -316,7 +316,7 @@ TEST(BoxBox, reduction_keeps_the_deepest_of_any_polygon_and_no_more_than_four) {
         ASSERT_GE(std::popcount(kept), 3);
         float lowest_kept = 1e30f;
         for (uint k = 0; k < polygon.count; ++k)
-            if ((kept >> k & 1u) != 0) lowest_kept = std::min(lowest_kept, polygon.corners[k].place.z);
+            if ((kept >> k & 1u) != 0) lowest_kept = std::min(lowest_kept, polygon.corners[k].position.z);
         ASSERT_LE(lowest_kept, lowest + k_depth_tie);
     }
 }
@@ -338,7 +338,7 @@ TEST(BoxBox, reduction_prefers_what_touches_to_what_is_above) {
             Polygon polygon = flat_polygon(count);
             const uint next = (k + 1) % count;
             for (uint i = 0; i < count; ++i)
-                polygon.corners[i].place.z = i == k || i == next ? -1e-4f : 2.0f * k_near;
+                polygon.corners[i].position.z = i == k || i == next ? -1e-4f : 2.0f * k_near;
             const uint edge = 1u << k | 1u << next;
             EXPECT_EQ(reduce_points(polygon, no_carriers()) & edge, edge) << count << ", " << k;
         }

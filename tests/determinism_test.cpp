@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "device/cpu/instruction_set.h"
 #include "step_results.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
@@ -42,6 +43,20 @@ class Determinism : public OnDevice {};
 TEST_P(Determinism, the_state_is_that_of_one_cpu_thread) {
     for (const Case& c : k_cases)
         EXPECT_EQ(hash_of(options_on(GetParam()), c), hash_on_one_thread(c)) << c.scene;
+}
+
+TEST(SetsOfInstructions, end_in_the_same_bits) {
+    if (engine::runnable_sets() == 1) GTEST_SKIP() << "NOT TESTED, this machine has one set of instructions alone";
+    const std::size_t widest = engine::usable_sets;
+    // By sweep and by tree, of boxes and spheres, in one island and in many.
+    for (const Case& c :
+         {Case{"pool:boxes=300", 60}, {"rubble:boxes=300", 60}, {"pile:boxes=1200", 40}, {"worlds", 10}}) {
+        engine::usable_sets = 1;
+        const std::uint64_t expected = hash_on_one_thread(c);
+        while (++engine::usable_sets <= engine::runnable_sets())
+            EXPECT_EQ(hash_on_one_thread(c), expected) << c.scene << " with " << engine::usable_sets;
+    }
+    engine::usable_sets = widest;
 }
 
 TEST_P(Determinism, spheres_spin_and_bounces_end_in_the_same_bits) {

@@ -622,7 +622,7 @@ TEST(Lanes, collide_boxes_with_the_bits_of_one_at_a_time) {
         int apart = 0, at_faces = 0, at_edges = 0, of_four = 0;
         for (std::size_t first = 0; first + queries->lanes <= questions.size(); first += queries->lanes) {
             ContactGeometry answers[k_most_lanes];
-            queries->collide_boxes(state, &questions[first], answers);
+            queries->collide_box_pairs(state, &questions[first], answers);
             for (uint lane = 0; lane < queries->lanes; ++lane) {
                 const BoxQuestion& question = questions[first + lane];
                 const ContactGeometry one = collide(state, question);

@@ -52,7 +52,8 @@ inline bool is_placed(BodyPose pose, BodyShape shape)
 // nothing for others.
 inline float way_of(vec3 movement, vec4 turn, BodyShape shape)
 {
-    float reach = choose(is_sphere(shape), 0.0f, length3(shape.half_extents));
+    float reach = 0.0f;
+    if (any_lane(!is_sphere(shape))) reach = choose_active(!is_sphere(shape), length3(shape.half_extents), 0.0f);
     float half_angle = length3(vec3(turn.x, turn.y, turn.z));
     precise float way = length3(movement) + 2.0f * half_angle * reach;
     return way;

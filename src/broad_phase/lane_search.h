@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bounding boxes side by side, one in each lane of the CPU's vector registers: several against one, as a sweep asks, or
-// several that go through the tree together.
+// Boxes side by side, one in each lane of the CPU's vector registers: made of bodies, against the ones that the last
+// search had of them, several against one and in pairs, as a sweep asks, or through the tree together.
 #pragma once
 
 #include <algorithm>

@@ -22,19 +22,19 @@ inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit,
 {
     Polygon result = polygon_beside(polygon);
     Corner from = corner_of(polygon, 0u);
-    precise float distance_from = sign * component(from.place, axis) - limit;
+    precise float distance_from = sign * component(from.position, axis) - limit;
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
         Corner to = corner_after(polygon, i);
-        precise float distance_to = sign * component(to.place, axis) - limit;
+        precise float distance_to = sign * component(to.position, axis) - limit;
         bool is_there = i < polygon.count;
         bool inside_from = distance_from <= 0.0f;
         bool inside_to = distance_to <= 0.0f;
         bool stays = is_there && inside_from;
         bool crosses = is_there && inside_from != inside_to;
-        if (any_lane(stays)) add_corner(result, stays, from.place, from.label);
+        if (any_lane(stays)) add_corner(result, stays, from.position, from.label);
         if (any_lane(crosses)) {
             precise float t = distance_from * reciprocal(distance_from - distance_to);
-            precise vec3 crossing = from.place + (to.place - from.place) * t;
+            precise vec3 crossing = from.position + (to.position - from.position) * t;
             // On the way out the next edge runs along the plane; on the way in it is the rest of this edge.
             add_corner(result, crosses, crossing, choose(inside_from, label, from.label));
         }
@@ -137,7 +137,7 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
     float lowest = k_far_apart;
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
         bool is_there = i < polygon.count;
-        vec3 corner = corner_of(polygon, i).place;
+        vec3 corner = corner_of(polygon, i).position;
         bool is_lower = is_there && corner.z < lowest;
         middle = choose_active(is_there, add_scaled(middle, corner, inverse_count), middle);
         lowest = choose(is_lower, corner.z, lowest);
@@ -149,34 +149,34 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
     Pick first = no_pick(deepest);
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
         Corner corner = corner_of(polygon, i);
-        uint worth = choose(corner.place.z <= near, k_worth_near, k_worth_far);
+        uint worth = choose(corner.position.z <= near, k_worth_near, k_worth_far);
         worth = choose(carried_load(carriers, feature_between(before, corner.label)), k_worth_carrying, worth);
         worths |= worth << (2u * i);
         before = corner.label;
-        precise vec3 d = corner.place - middle;
+        precise vec3 d = corner.position - middle;
         precise float square = d.x * d.x + d.y * d.y;
         first = better_pick(first, i, worth, choose_active(i < polygon.count, square, 0.0f));
     }
-    precise float deeper = corner_at(polygon, first.point).place.z - lowest;
+    precise float deeper = corner_at(polygon, first.point).position.z - lowest;
     first.point = choose(deeper > k_depth_tie, deepest, first.point);
-    vec3 a = corner_at(polygon, first.point).place;
+    vec3 a = corner_at(polygon, first.point).position;
     Pick second = no_pick(first.point);
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
-        precise vec3 d = corner_of(polygon, i).place - a;
+        precise vec3 d = corner_of(polygon, i).position - a;
         precise float square = d.x * d.x + d.y * d.y;
         second = better_pick(second, i, worth_of(worths, i), choose_active(i < polygon.count, square, 0.0f));
     }
-    vec3 b = corner_at(polygon, second.point).place;
+    vec3 b = corner_at(polygon, second.point).position;
     Pick third = no_pick(first.point);
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
-        float area = abs(triangle_area(a, b, corner_of(polygon, i).place));
+        float area = abs(triangle_area(a, b, corner_of(polygon, i).position));
         third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), choose_active(i < polygon.count, area, 0.0f));
     }
-    vec3 c = corner_at(polygon, third.point).place;
+    vec3 c = corner_at(polygon, third.point).position;
     float turn = choose(triangle_area(a, b, c) < 0.0f, -1.0f, 1.0f);
     Pick fourth = no_pick(first.point);
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
-        vec3 p = corner_of(polygon, i).place;
+        vec3 p = corner_of(polygon, i).position;
         // The area beyond a side is negative in the triangle's own orientation.
         float inside = min(turn * triangle_area(a, b, p),
                            min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
@@ -193,7 +193,7 @@ inline ContactGeometry keep_corner(ContactGeometry g, int i, Polygon polygon, ui
     bool is_there = corners != 0u;
     if (any_lane(is_there)) {
         uint lowest = uint(findLSB(corners));
-        vec3 corner = corner_at(polygon, lowest).place;
+        vec3 corner = corner_at(polygon, lowest).position;
         // Projected on the reference face, then moved half-way to the incident one.
         precise vec3 local = vec3(corner.x, corner.y, half_n + 0.5f * corner.z);
         g.points[i] = choose_active(is_there, to_world(frame, local), g.points[i]);
@@ -234,7 +234,7 @@ inline ContactGeometry face_contact(BoxPair p, uint axis, Carriers carriers, flo
     bool are_many = polygon.count > 4u;
     if (any_lane(are_many)) kept = choose_active(are_many, reduce_points(polygon, carriers), kept);
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
-        kept &= ~(choose(corner_of(polygon, i).place.z > max_separation, 1u, 0u) << i);
+        kept &= ~(choose(corner_of(polygon, i).position.z > max_separation, 1u, 0u) << i);
     }
     ContactGeometry g = no_contact();
     g.normal = frame.z;

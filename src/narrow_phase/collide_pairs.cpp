@@ -166,7 +166,7 @@ void collide_boxes_ahead(const CpuState& state, std::span<const PairInHand> pair
     }
     std::array<ContactGeometry, k_part> memory;
     for (ContactGeometry* met = found; count > 0; met = memory.data()) { // the first look is where they are
-        collide_boxes(state, questions.data(), count, met);
+        collide_box_pairs(state, questions.data(), count, met);
         uint left = 0;
         for (uint i = 0; i < count; ++i) {
             const vec3 motion = motion_of(state, {questions[i].body_a, questions[i].body_b});

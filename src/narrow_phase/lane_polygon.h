@@ -4,7 +4,7 @@
 constexpr std::uint32_t k_polygon_corners = 8;
 
 struct Corner {
-    vec3 place;
+    vec3 position;
     ULanes label;
 };
 
@@ -48,7 +48,7 @@ inline Corner corner_of(Polygon polygon, ULanes i) {
 inline Corner corner_after(Polygon polygon, ULanes i) {
     const Corner next = corner_in_row(polygon, i.v[0] + 1), first = corner_in_row(polygon, 0);
     const Mask is_there = i + 1u < polygon.count;
-    return {choose(is_there, next.place, first.place), choose(is_there, next.label, first.label)};
+    return {choose(is_there, next.position, first.position), choose(is_there, next.label, first.label)};
 }
 
 /// What a row has of one lane.

@@ -38,14 +38,14 @@ NearPairs find_near(const CpuState& state, const Pair* pairs, uint count) {
     return all;
 }
 
-void collide_boxes(const CpuState& state, const BoxQuestion* questions, uint count, ContactGeometry* answers) {
+void collide_box_pairs(const CpuState& state, const BoxQuestion* questions, uint count, ContactGeometry* answers) {
     const LaneQueries& queries = lane_queries();
     uint done = 0;
     for (; done + queries.lanes <= count; done += queries.lanes)
-        queries.collide_boxes(state, questions + done, answers + done);
+        queries.collide_box_pairs(state, questions + done, answers + done);
     if (done == count) return;
     std::array<ContactGeometry, k_most_lanes> rest;
-    queries.collide_boxes(state, filled_up(questions + done, questions + count).data(), rest.data());
+    queries.collide_box_pairs(state, filled_up(questions + done, questions + count).data(), rest.data());
     std::copy_n(rest.begin(), count - done, answers + done);
 }
 

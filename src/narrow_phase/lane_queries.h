@@ -8,7 +8,7 @@
 
 namespace talus::engine {
 
-/// Two boxes that are to be collided.
+/// Two boxes that are to be collided, in cells of four words.
 struct alignas(16) BoxQuestion {
     uint body_a;
     uint body_b;
@@ -28,13 +28,13 @@ struct LaneQueries {
     /// Of as many pairs as there are lanes.
     NearPairs (*find_near)(const CpuState&, const Pair*);
     /// Answers as many questions as there are lanes.
-    void (*collide_boxes)(const CpuState&, const BoxQuestion*, ContactGeometry*);
+    void (*collide_box_pairs)(const CpuState&, const BoxQuestion*, ContactGeometry*);
 };
 
 /// Of at most 64 pairs, with the widest registers that this machine has.
 NearPairs find_near(const CpuState&, const Pair*, uint count);
 
-/// Answers one question after the other, with the widest registers that this machine has.
-void collide_boxes(const CpuState&, const BoxQuestion*, uint count, ContactGeometry*);
+/// Answers `count` questions, as many side by side as the widest registers of this machine have lanes.
+void collide_box_pairs(const CpuState&, const BoxQuestion*, uint count, ContactGeometry*);
 
 } // namespace talus::engine

@@ -47,12 +47,18 @@ TALUS_LANE void put_geometries(const ContactGeometry& g, engine::ContactGeometry
         to[lane].features[3] = g.features[3].v[lane];
 }
 
-inline void collide_boxes(const CpuState& state, const BoxQuestion* questions, engine::ContactGeometry* answers) {
+static_assert(sizeof(engine::ContactGeometry) == 7 * sizeof(Cell) + 4 &&
+              offsetof(engine::ContactGeometry, points) == 2 * sizeof(Cell) + 4 &&
+              offsetof(engine::ContactGeometry, features) == 6 * sizeof(Cell) + 4);
+
+inline void collide_box_pairs(const CpuState& state, const BoxQuestion* questions, engine::ContactGeometry* answers) {
     const BodiesOfPairs bodies = bodies_of(questions);
     const FourLanes first = gather(questions, k_places, 0), second = gather(questions, k_places, 1);
     const Carriers carriers{
         floatBitsToUint(first.z),
         {floatBitsToUint(first.w), floatBitsToUint(second.x), floatBitsToUint(second.y), floatBitsToUint(second.z)}};
+    static_assert(offsetof(BoxQuestion, carriers) == 8 && offsetof(BoxQuestion, time) == 2 * sizeof(Cell) - 4 &&
+                  offsetof(BoxQuestion, had_contact) == 2 * sizeof(Cell));
     const ULanes had_contact = floatBitsToUint(gather(questions, k_places, 2).x);
     const vec3 motion =
         motion_between(velocities_at(state, bodies.a), velocities_at(state, bodies.b), state.parameters);
@@ -68,6 +74,7 @@ inline void collide_boxes(const CpuState& state, const BoxQuestion* questions, e
 namespace talus::engine {
 
 extern const LaneQueries TALUS_OF_SET(lane_queries);
-const LaneQueries TALUS_OF_SET(lane_queries){TALUS_LANES, TALUS_LANES_NAME::find_near, TALUS_LANES_NAME::collide_boxes};
+const LaneQueries TALUS_OF_SET(lane_queries){TALUS_LANES, TALUS_LANES_NAME::find_near,
+                                             TALUS_LANES_NAME::collide_box_pairs};
 
 } // namespace talus::engine

@@ -11,7 +11,7 @@ shared uvec4 polygon_corners[2u * k_polygon_corners * k_polygon_columns];
 
 // Where it is, and the label of the edge that begins there.
 struct Corner {
-    vec3 place;
+    vec3 position;
     uint label;
 };
 
@@ -30,6 +30,7 @@ uint corner_place(Polygon polygon, uint i)
     return (polygon.first + i) * k_polygon_columns + gl_LocalInvocationIndex;
 }
 
+// For what treats several polygons side by side: with corner_of() i is the same for all of them.
 Corner corner_at(Polygon polygon, uint i)
 {
     uvec4 words = polygon_corners[corner_place(polygon, i)];

@@ -10,7 +10,7 @@ constexpr uint k_polygon_corners = 8;
 
 /// Where it is, and the label of the edge that begins there.
 struct alignas(16) Corner {
-    vec3 place;
+    vec3 position;
     uint label;
 };
 

@@ -76,8 +76,10 @@ struct Lanes {
 TALUS_LANE ULanes::ULanes(Lanes x)
     : v(UintVector(__builtin_convertvector(x.v == x.v ? x.v : FloatVector{}, MaskVector))) {}
 
+// In constant expressions, as a constant of a formula that others are made of may not be computed when the program
+// starts: these instructions would run on machines that do not have them.
 #define TALUS_OPERATOR(type, op)                                                                                       \
-    TALUS_LANE type operator op(type a, type b) {                                                                      \
+    TALUS_LANE constexpr type operator op(type a, type b) {                                                            \
         return type(a.v op b.v);                                                                                       \
     }
 TALUS_OPERATOR(Lanes, +)
