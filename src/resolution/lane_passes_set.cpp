@@ -193,7 +193,7 @@ inline void take_constraints(const CpuState& state, const std::uint32_t* indices
     ConstraintBatch& batch = *static_cast<ConstraintBatch*>(memory);
     Places& places = batch.places;
     batch.lanes = (1u << count) - 1u;
-    batch.stale = batch.lanes;
+    batch.stale = k_lane_mask; // lanes without one compute with the first one's, too
     batch.ticks = no_ticks();
     for (std::uint32_t lane = 0; lane < k_lanes; ++lane) {
         const std::uint32_t index = indices[lane < count ? lane : 0];
