@@ -17,9 +17,10 @@ static void find_strays_on_cpu(CpuState& state, const Launch&) {
         other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
     const uint most = most_strays(body_count);
     std::atomic<uint> count = other_list ? most + 1 : 0;
-    for_bodies_in_lanes(state, other_list ? 0 : body_count, [&](uint first, uint bodies) {
+    const LaneSearch& search = lane_search();
+    state.parallel_parts(other_list ? 0 : body_count, search.lanes, [&](uint, uint first, uint end) {
         if (count.load(std::memory_order_relaxed) > most) return;
-        for (uint strays = lane_search().find_strays(state, first, bodies); strays != 0; strays &= strays - 1) {
+        for (uint strays = search.find_strays(state, first, end - first); strays != 0; strays &= strays - 1) {
             const uint place = takes_all ? most : count.fetch_add(1, std::memory_order_relaxed);
             if (place < most)
                 state.strays[place] = first + static_cast<uint>(std::countr_zero(strays));

@@ -24,12 +24,11 @@ void SearchMemory::take_boxes(const CpuState& state, std::span<const Aabb> boxes
     const LaneSearch& search = lane_search();
     const std::size_t lines = search.batch_bytes / sizeof(Line);
     const auto count = static_cast<uint>(boxes.size());
-    const uint batches = (count + search.lanes - 1) / search.lanes;
-    boxes_.resize(lines * batches);
-    state.parallel(batches, [&](uint batch) {
-        const uint first = batch * search.lanes;
-        search.take_boxes(&boxes[first], std::min(search.lanes, count - first), &boxes_[lines * batch]);
-    });
+    boxes_.resize(lines * ((count + search.lanes - 1) / search.lanes));
+    const auto take = [&](uint batch, uint first, uint end) {
+        search.take_boxes(&boxes[first], end - first, &boxes_[lines * batch]);
+    };
+    state.parallel_parts(count, search.lanes, take, k_parallel_grain * search.lanes);
 }
 
 void SearchMemory::find_partners(const Aabb& box, uint first, uint end, std::vector<uint>& partners) const {
@@ -82,7 +81,7 @@ void SearchMemory::write_pairs(CpuState& state, uint count) const {
     const auto offset_of = [&](uint place) {
         return place < count ? state.pair_counts[place] : state.counters[k_counter_found_pairs];
     };
-    for_each_part(state, count, [&](uint part, uint first, uint end) {
+    state.parallel_parts(count, k_part, [&](uint part, uint first, uint end) {
         const uint* partner = partners_[part].data();
         for (uint place = first; place < end; ++place) {
             const uint body = state.sort_values[place];

@@ -3,7 +3,6 @@
 // search had of them, several against one and in pairs, as a sweep asks, or through the tree together.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -53,13 +52,6 @@ struct LaneSearch {
 /// With the widest registers that this machine has.
 const LaneSearch& lane_search();
 
-/// Calls part(first, count) for all of `count` bodies, as many at a time as there are lanes, on all threads.
-template <typename Part> void for_bodies_in_lanes(const CpuState& state, uint count, const Part& part) {
-    const uint lanes = lane_search().lanes;
-    const auto call = [&](uint index) { part(index * lanes, std::min(lanes, count - index * lanes)); };
-    state.parallel((count + lanes - 1) / lanes, call, k_parallel_grain / lanes);
-}
-
 /// What the launches of a search keep: boxes in the form of lanes, and the partners that were found when they were
 /// counted.
 class SearchMemory {
@@ -68,12 +60,6 @@ public:
 
     /// The device's.
     static SearchMemory& of(CpuState&);
-
-    /// Calls part(index, first, end) for parts of the places below `count`, on all threads.
-    template <typename Part> static void for_each_part(const CpuState& state, uint count, const Part& part) {
-        const auto call = [&](uint index) { part(index, index * k_part, std::min((index + 1) * k_part, count)); };
-        state.parallel((count + k_part - 1) / k_part, call, k_parallel_grain / k_part);
-    }
 
     /// Before a search, for as many places.
     void begin(uint count) { partners_.resize((count + k_part - 1) / k_part); }

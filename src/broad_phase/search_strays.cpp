@@ -33,7 +33,7 @@ static void search_strays_on_cpu(CpuState& state, const Launch&) {
         else
             std::atomic_ref(counters[k_counter_search_count]).store(state.parameters.body_count);
     };
-    SearchMemory::for_each_part(state, state.parameters.body_count, [&](uint, uint first, uint end) {
+    state.parallel_parts(state.parameters.body_count, SearchMemory::k_part, [&](uint, uint first, uint end) {
         std::vector<uint> near;
         for (uint body = first; body < end; ++body) {
             const OrientedBox other = is_stray[body] ? box_with_skin(state, body) : state.oriented_boxes[body];

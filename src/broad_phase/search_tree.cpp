@@ -17,7 +17,7 @@ static void search_tree_on_cpu(CpuState& state, const Launch& launch) {
     const TreeView tree{state.tree_nodes.data, state.oriented_boxes.data, state.sort_values.data, launch.args[1],
                         state.tree_grids[0].end};
     memory.begin(body_count);
-    SearchMemory::for_each_part(state, body_count, [&](uint part, uint first, uint end) {
+    state.parallel_parts(body_count, SearchMemory::k_part, [&](uint part, uint first, uint end) {
         std::vector<uint>& partners = memory.partners_of(part);
         partners.clear();
         memory.search_tree(tree, first, end, partners, &state.pair_counts[first]);

@@ -15,7 +15,7 @@ void count_partners(CpuState& state, SearchMemory& memory, uint body_count) {
     const Aabb* const boxes = state.sorted_aabbs.data;
     memory.begin(body_count);
     memory.take_boxes(state, {boxes, body_count});
-    SearchMemory::for_each_part(state, body_count, [&](uint part, uint first, uint end) {
+    state.parallel_parts(body_count, SearchMemory::k_part, [&](uint part, uint first, uint end) {
         std::vector<uint>& partners = memory.partners_of(part);
         std::vector<uint> places; // that these are partners of
         partners.clear();

@@ -6,8 +6,9 @@
 namespace talus::engine {
 
 static void update_aabbs_on_cpu(CpuState& state, const Launch&) {
-    for_bodies_in_lanes(state, state.counters[k_counter_search_count],
-                        [&](uint first, uint count) { lane_search().update_boxes(state, first, count); });
+    const LaneSearch& search = lane_search();
+    state.parallel_parts(state.counters[k_counter_search_count], search.lanes,
+                         [&](uint, uint first, uint end) { search.update_boxes(state, first, end - first); });
 }
 
 const Kernel update_aabbs{"broad_phase/update_aabbs", update_aabbs_on_cpu};

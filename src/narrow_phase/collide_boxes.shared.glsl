@@ -84,7 +84,7 @@ inline uint worth_of(uint worths, uint i)
     return (worths >> (2u * i)) & 3u;
 }
 
-// The best candidate so far.
+// The best candidate so far, a corner of the polygon.
 struct Pick {
     uint point;
     uint worth;
@@ -100,9 +100,9 @@ inline Pick no_pick(uint point)
     return pick;
 }
 
-inline Pick better_pick(Pick best, uint point, uint worth, float gain)
+inline Pick better_pick(Pick best, Polygon polygon, uint point, uint worth, float gain)
 {
-    bool better = gain > 0.0f && (worth > best.worth || (worth == best.worth && gain > best.gain));
+    bool better = point < polygon.count && gain > 0.0f && (worth > best.worth || (worth == best.worth && gain > best.gain));
     best.point = choose(better, point, best.point);
     best.worth = choose(better, worth, best.worth);
     best.gain = choose(better, gain, best.gain);
@@ -155,7 +155,7 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
         before = corner.label;
         precise vec3 d = corner.position - middle;
         precise float square = d.x * d.x + d.y * d.y;
-        first = better_pick(first, i, worth, choose_active(i < polygon.count, square, 0.0f));
+        first = better_pick(first, polygon, i, worth, square);
     }
     precise float deeper = corner_at(polygon, first.point).position.z - lowest;
     first.point = choose(deeper > k_depth_tie, deepest, first.point);
@@ -164,13 +164,13 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
         precise vec3 d = corner_of(polygon, i).position - a;
         precise float square = d.x * d.x + d.y * d.y;
-        second = better_pick(second, i, worth_of(worths, i), choose_active(i < polygon.count, square, 0.0f));
+        second = better_pick(second, polygon, i, worth_of(worths, i), square);
     }
     vec3 b = corner_at(polygon, second.point).position;
     Pick third = no_pick(first.point);
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
         float area = abs(triangle_area(a, b, corner_of(polygon, i).position));
-        third = better_pick(third, i, min(worth_of(worths, i), k_worth_near), choose_active(i < polygon.count, area, 0.0f));
+        third = better_pick(third, polygon, i, min(worth_of(worths, i), k_worth_near), area);
     }
     vec3 c = corner_at(polygon, third.point).position;
     float turn = choose(triangle_area(a, b, c) < 0.0f, -1.0f, 1.0f);
@@ -180,7 +180,7 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
         // The area beyond a side is negative in the triangle's own orientation.
         float inside = min(turn * triangle_area(a, b, p),
                            min(turn * triangle_area(b, c, p), turn * triangle_area(c, a, p)));
-        fourth = better_pick(fourth, i, min(worth_of(worths, i), k_worth_near), choose_active(i < polygon.count, -inside, 0.0f));
+        fourth = better_pick(fourth, polygon, i, min(worth_of(worths, i), k_worth_near), -inside);
     }
     return (1u << first.point) | (1u << second.point) | (1u << third.point) | (1u << fourth.point);
 }

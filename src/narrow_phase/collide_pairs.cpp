@@ -188,8 +188,7 @@ void collide_boxes_ahead(const CpuState& state, std::span<const PairInHand> pair
 void collide_pairs_on_cpu(CpuState& state, const Launch&) {
     const uint pair_count = state.counters[k_counter_pair_count];
     const bool same_pairs = state.counters[k_counter_pairs_changed] == 0;
-    const auto collide_part = [&](uint part) {
-        const uint first = part * k_part, end = std::min(first + k_part, pair_count);
+    const auto collide_part = [&](uint, uint first, uint end) {
         std::array<PairInHand, k_part> in_hand;
         std::array<ContactGeometry, k_part> found;
         const uint count = take_in_hand(state, first, end, same_pairs, in_hand);
@@ -205,7 +204,7 @@ void collide_pairs_on_cpu(CpuState& state, const Launch&) {
         for (uint index = first; same_pairs && index < end; ++index)
             compare_with_last(state, index);
     };
-    state.parallel((pair_count + k_part - 1) / k_part, collide_part, 2);
+    state.parallel_parts(pair_count, k_part, collide_part, 2 * k_part);
 }
 
 } // namespace

@@ -40,11 +40,10 @@ void tell_load(const CpuState& state, const LoadBelow& load, uint height) {
 }
 
 static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
-    const uint lanes = lane_passes().lanes, manifold_count = state.counters[k_counter_manifold_count];
-    const auto prepare_part = [&](uint part) {
+    const auto prepare_part = [&](uint, uint first, uint end) {
         ContactToPrepare contacts[k_most_lanes];
         uint count = 0;
-        for (uint index = part * lanes, end = min(index + lanes, manifold_count); index < end; ++index) {
+        for (uint index = first; index < end; ++index) {
             const uint manifold = state.manifold_order[index];
             if (!is_among(manifold, launch.args[0], launch.args[1])) continue;
             const uint colour = colour_of_key(state.manifold_keys[index]);
@@ -55,7 +54,8 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
         }
         if (count > 0) lane_passes().prepare_contacts(state, contacts, count);
     };
-    state.parallel((manifold_count + lanes - 1) / lanes, prepare_part, k_parallel_grain / 4 / lanes);
+    state.parallel_parts(state.counters[k_counter_manifold_count], lane_passes().lanes, prepare_part,
+                         k_parallel_grain / 4);
 }
 
 const Kernel prepare_contacts{"resolution/prepare_contacts", prepare_contacts_on_cpu};

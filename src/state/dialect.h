@@ -48,11 +48,15 @@ inline int findLSB(uint x) {
 inline int findMSB(uint x) {
     return 31 - std::countl_zero(x);
 }
-/// In sums of 2, 4 and 8 bits: std::popcount is a call on processors of which it is not known that they can count.
-inline int bitCount(uint x) {
+/// In sums of 2, 4 and 8 bits, of a word or of one in each lane: std::popcount is a call on processors of which it is
+/// not known that they can count, and registers cannot.
+template <typename Word> [[gnu::always_inline]] inline Word count_bits(Word x) {
     x = x - ((x >> 1) & 0x55555555u);
     x = (x & 0x33333333u) + ((x >> 2) & 0x33333333u);
-    return static_cast<int>((((x + (x >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24);
+    return (((x + (x >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
+}
+inline int bitCount(uint x) {
+    return static_cast<int>(count_bits(x));
 }
 inline float abs(float x) {
     return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);

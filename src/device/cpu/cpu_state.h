@@ -2,6 +2,7 @@
 // The state as the CPU twins see it: one typed array a buffer, the step's constants, and the threads to run loops on.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "device/cpu/cpu_threads.h"
@@ -37,6 +38,13 @@ struct CpuState {
                 call(i);
         };
         threads->run(count, grain, range, &body);
+    }
+
+    /// Calls body(part, first, end) for parts of `size` items, the last of which may have fewer: `first` to `end` - 1.
+    template <typename Body>
+    void parallel_parts(uint count, uint size, const Body& body, uint grain = k_parallel_grain) const {
+        const auto call = [&](uint part) { body(part, part * size, std::min((part + 1) * size, count)); };
+        parallel((count + size - 1) / size, call, grain / size);
     }
 
     const CpuThreads* threads = nullptr;

@@ -15,6 +15,8 @@
 #include <immintrin.h>
 #endif
 
+#include "state/dialect.h"
+
 namespace talus::engine::TALUS_LANES_NAME {
 
 #define TALUS_LANE [[gnu::always_inline]] inline
@@ -198,11 +200,8 @@ TALUS_LANE Lanes abs(Lanes x) {
     return uintBitsToFloat(floatBitsToUint(x) & 0x7fffffffu);
 }
 
-/// In sums of 2, 4 and 8 bits, as registers cannot count them.
 TALUS_LANE ULanes bitCount(ULanes x) {
-    x = x - ((x >> 1) & 0x55555555u);
-    x = (x & 0x33333333u) + ((x >> 2) & 0x33333333u);
-    return (((x + (x >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24;
+    return count_bits(x);
 }
 /// Place of the lowest bit that is set; 32 for 0.
 TALUS_LANE ULanes findLSB(ULanes x) {
