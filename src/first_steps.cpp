@@ -51,7 +51,9 @@ void Simulation::begin_kernels(const Population& population) {
     for (const Stage stage : k_stages)
         note(stage, first);
     first.search = Search::None;
+    first.records_last = first.sleeping;
     note(Stage::BroadPhase, first);
+    note(Stage::NarrowPhase, first);
     if (!first.small && !last.hybrid()) list.run({.kernel = weigh_hubs});
     scatter_changed_records(list, BufferId::Poses, 1);
     needed_kernels = list.kernels;

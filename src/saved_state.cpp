@@ -89,6 +89,7 @@ void Simulation::restore(const SavedState& saved) {
         }
         if (is_active(manifold) && !sleeps(manifold)) constraints.push_back(constraint); // others are not solved
     }
+    state_device().place_constraints(ConstraintPlace::OverNewContacts); // where there is room for all
     grow_contacts(pair_count, static_cast<uint>(constraints.size()));
     const auto write_all = [this](BufferId buffer, const auto& records) {
         if (!records.empty()) write(buffer, 0, std::span(records.data(), records.size()));

@@ -226,6 +226,7 @@ void Simulation::reserve_pairs(uint count) {
 
 void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
     TALUS_ASSERT(pending.empty(), "contacts were to move while steps are on their way");
+    other_records = true;
     if (pairs > k_most_pairs)
         throw Error(fmt::format("{} pairs of bodies are too many; at most {} are allowed", pairs, k_most_pairs));
     const uint pair_capacity = std::max(pairs, plan.pair_capacity);
@@ -294,7 +295,7 @@ void Simulation::set_settings(const Settings& wanted) {
 }
 
 void Simulation::begin_graph_anew() {
-    other_graph = true;
+    other_graph = other_records = true;
     graph_lasts.begin_anew();
 }
 
@@ -334,8 +335,8 @@ void Simulation::change_bodies(const Population& population, const BodyChanges& 
 }
 
 void Simulation::apply_now(const Population& population, const BodyChanges& changes) {
+    if (population.slots != enqueued_slots || changes_the_graph(changes)) begin_graph_anew();
     write_body_count(population.slots);
-    begin_graph_anew();
     apply_changes(*placement.resolution, changes);
     if (placement.hybrid()) apply_changes(*placement.detection, changes);
     placement.detection->leave();
@@ -371,8 +372,12 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     now.bounces = population.some_bounce;
     now.kinematic = population.some_kinematic;
     now.sleeping = settings.sleeping;
-    now.other_graph = settings.sleeping; // who sleeps is found anew in each step
     now.waking = settings.sleeping ? population.waking : Waking::None;
+    if (may_lie_beside(population)) {
+        now.constraints_beside = true;
+        now.manifold_capacity = std::min(plan.manifold_capacity, placement.resolution->constraints_beside());
+        now.near_pairs = plan.pair_capacity; // which is of no matter to few
+    }
     if (settings.solve_order == SolveOrder::Sequential) now.overflow_count = k_none; // all
     now.overflow = now.overflow_count > 0;
     now.least_substeps = passes.least_substeps;
@@ -383,6 +388,10 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     now.substep_capacity = launches ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;
     if (!launches) now.colour_capacity = 0;
     return now;
+}
+
+bool Simulation::may_lie_beside(const Population& population) const {
+    return !placement.hybrid() && population.waking == Waking::None && few_are_solved.holds();
 }
 
 /// The invocations that the persistent launch is to have on a GPU that can run so many of its kernel at a time. Those
@@ -454,9 +463,11 @@ void Simulation::enqueue(Pending entry) {
     const bool other_bodies = entry.population.slots != enqueued_slots;
     const bool strays = !pairs_last.holds(), all = !list_lasts.holds() || moves_bodies(entry.changes) || other_bodies;
     now.search = all ? Search::All : strays ? Search::Strays : Search::None;
-    now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || now.other_graph ||
-                      placement.hybrid() || !has_the_graph_of(now, newest_plan);
+    now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || placement.hybrid() ||
+                      !has_the_graph_of(now, newest_plan);
     now.makes_graph = now.other_graph || !graph_lasts.holds();
+    const bool other_records_than_last = std::exchange(other_records, false) || placement.hybrid();
+    now.records_last = now.sleeping && newest_plan.constraints_beside && !other_records_than_last;
     if (now.awaits_kernels != newest_plan.awaits_kernels)
         log(LogLevel::Info, now.awaits_kernels
                                 ? "the quickest kernels are still being compiled: until they are ready, a "
@@ -472,6 +483,7 @@ void Simulation::enqueue(Pending entry) {
         entry.tickets = engine::step(placement, now, entry.with_poses, entry.changes);
     } catch (const Error&) {
         other_graph = now.other_graph; // the next step's
+        other_records = true;
         owed_waking = std::max(owed_waking, entry.population.waking);
         if (launch_count() != launches_before) abandon_step();
         throw;
@@ -517,6 +529,8 @@ void Simulation::finish_oldest() {
     pairs_last.note(counters[k_counter_strayed] != 0);
     list_lasts.note(counters[k_counter_searched] != 0);
     graph_lasts.note(counters[k_counter_graph_was_due] != 0);
+    const bool some_sleep = counters[k_counter_sleeping_bodies] > 0;
+    few_are_solved.note(!some_sleep || counters[k_counter_manifold_count] >= device.constraints_beside() / 2);
     newest_device = &device;
     newest_ticket = tickets.resolution;
     if (info.kind == DeviceKind::Gpu && !waits_on_cpu()) cpu.reset(); // that may have made the step before
@@ -671,13 +685,17 @@ void Simulation::redo(std::span<const uint> counters) {
     if ((reasons & k_fit_strays) != 0) pairs_last.was_wrong();
     if ((reasons & k_fit_all) != 0) list_lasts.was_wrong();
     if ((reasons & k_fit_graph) != 0) graph_lasts.was_wrong();
-    if ((reasons & ~(k_fit_strays | k_fit_all | k_fit_graph)) != 0) {
+    const bool manifolds_grow = (reasons & k_fit_manifolds) != 0 && manifolds > plan.manifold_capacity;
+    // Constraints that had no room beside the contacts lie over these, as they otherwise do.
+    if ((reasons & k_fit_manifolds) != 0 && !manifolds_grow) few_are_solved.was_wrong();
+    if (manifolds_grow || (reasons & ~(k_fit_strays | k_fit_all | k_fit_graph | k_fit_manifolds)) != 0) {
         log(LogLevel::Info, what_did_not_fit(counters));
         ++growths;
     }
     if ((reasons & (k_fit_colours | k_fit_substeps)) != 0) follow_demand(counters);
     newest_has_poses = false; // the ring goes on, and soon has no room for that frame
 
+    other_records = true;
     // The steps behind it changed nothing either, but each has exchanged the manifolds with the old ones; and a step
     // that broke off behind them has put the constraints over these.
     std::deque<Pending> again = std::exchange(pending, {});
@@ -699,9 +717,8 @@ void Simulation::redo(std::span<const uint> counters) {
                 "this GPU did not run work groups, or the invocations of one, side by side as they need, so a step "
                 "went wrong; TALUS_RESIDENT_GROUPS=0 in the environment has them meet at barriers instead");
         }
-        if ((reasons & (k_fit_pairs | k_fit_manifolds)) != 0)
-            make_contact_room((reasons & k_fit_pairs) != 0 ? pair_demand : 0,
-                              (reasons & k_fit_manifolds) != 0 ? manifolds : 0);
+        if ((reasons & k_fit_pairs) != 0 || manifolds_grow)
+            make_contact_room((reasons & k_fit_pairs) != 0 ? pair_demand : 0, manifolds_grow ? manifolds : 0);
         if ((reasons & k_fit_hubs) != 0) make_hub_room(hub_manifolds);
     } catch (const Error&) {
         // The world is left as it was before these steps, but for what the caller has changed, and for what groups

@@ -123,7 +123,8 @@ public:
     std::vector<StepReports> take_reports() { return std::exchange(reports, {}); }
 
 private:
-    /// The next step's graph is not that of the step before, for what has happened between them.
+    /// The next step's graph is not that of the step before, for what has happened between them; nor are the records
+    /// that steps leave alone where bodies sleep.
     void begin_graph_anew();
 
     struct Pending {
@@ -147,6 +148,8 @@ private:
     /// The next step's plan without a persistent launch: with one for each colour and pass of all that no work groups
     /// solve.
     StepPlan plan_in_launches(const Population&, IslandSolve) const;
+    /// Whether the next step's constraints are to have room beside the contacts.
+    bool may_lie_beside(const Population&) const;
     /// Whether the persistent launch does a small world's largest island sooner than a work group, and may be had.
     bool may_leave_groups(const StepPlan& in_groups) const;
     /// That may run side by side of the persistent launch; 0 where it cannot make all passes of the plan.
@@ -209,13 +212,15 @@ private:
     std::deque<Pending> pending;
     std::uint64_t finished_count = 0;
     std::uint32_t growths = 0;
-    Trust pairs_last;        ///< that a step need not search for pairs
-    Trust list_lasts;        ///< that it need not search for all
-    Trust graph_lasts;       ///< that a step need not make its constraint graph
-    bool other_graph = true; ///< see begin_graph_anew()
-    StepPlan newest_plan;    ///< of the step that was enqueued last
-    uint window_steps = 0;   ///< since the demand was last looked at
-    uint window_colours = 0; ///< most colours since
+    Trust pairs_last;          ///< that a step need not search for pairs
+    Trust list_lasts;          ///< that it need not search for all
+    Trust graph_lasts;         ///< that a step need not make its constraint graph
+    Trust few_are_solved;      ///< that constraints have room beside the contacts, as nearly all bodies sleep
+    bool other_graph = true;   ///< see begin_graph_anew()
+    bool other_records = true; ///< not all records of the device are as its newest step has left them
+    StepPlan newest_plan;      ///< of the step that was enqueued last
+    uint window_steps = 0;     ///< since the demand was last looked at
+    uint window_colours = 0;   ///< most colours since
     uint window_substeps = 0;
     uint window_hub_manifolds = 0;
     uint window_overflow = 0, window_launched = 0;

@@ -19,6 +19,7 @@ namespace talus::tests {
 namespace {
 
 using engine::BufferId;
+using engine::ConstraintPlace;
 using engine::ContactDemand;
 using engine::ContactRoom;
 using engine::uint;
@@ -38,9 +39,20 @@ std::vector<ContactRoom> ways(ContactRoom room) {
     std::vector<ContactRoom> all;
     for (int step = 0; step < 2; ++step) {
         all.push_back(room);
-        room.begin_constraints();
+        room.place_constraints(ConstraintPlace::OverOldContacts);
         all.push_back(room);
         room.swap();
+    }
+    return all;
+}
+
+/// And in each with the constraints beside the contacts, where they have room there.
+std::vector<ContactRoom> ways_with_few_constraints(const ContactRoom& room) {
+    std::vector<ContactRoom> all = ways(room);
+    if (room.constraints_beside() == 0) return all;
+    for (ContactRoom beside : ways(room)) {
+        beside.place_constraints(ConstraintPlace::BesideContacts);
+        all.push_back(beside);
     }
     return all;
 }
@@ -65,10 +77,15 @@ constexpr std::array<ContactDemand, 10> k_sizes{{{0, 0, 0},
 TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_constraints_over_what_is_dead) {
     for (const ContactDemand& size : k_sizes) {
         for (const bool keeps_old : {false, true}) {
-            for (const ContactRoom& room : ways(room_for(size.pairs, size.manifolds, keeps_old, size.table_size))) {
+            const ContactRoom first = room_for(size.pairs, size.manifolds, keeps_old, size.table_size);
+            for (const ContactRoom& room : ways_with_few_constraints(first)) {
                 SCOPED_TRACE(testing::Message() << size.pairs << " pairs, " << size.manifolds << " manifolds");
                 const ContactRoom::Place constraints = room.place(BufferId::Constraints);
-                EXPECT_GE(constraints.bytes, size.manifolds * sizeof(engine::ContactConstraint));
+                EXPECT_GE(constraints.bytes,
+                          std::min(size.manifolds, room.constraints_beside()) * sizeof(engine::ContactConstraint));
+                if (room.is_covered(BufferId::Manifolds) || room.is_covered(BufferId::OldManifolds)) {
+                    EXPECT_GE(constraints.bytes, size.manifolds * sizeof(engine::ContactConstraint));
+                }
                 EXPECT_LE(constraints.offset + constraints.bytes, room.bytes());
                 EXPECT_EQ(constraints.offset % 256, 0u);
                 const ContactRoom::Place table = room.place(BufferId::PairTable);
@@ -98,7 +115,7 @@ TEST(ContactRooms, have_constraints_over_the_old_contacts_in_a_step_and_over_the
     EXPECT_TRUE(room.is_covered(BufferId::Manifolds));
     EXPECT_FALSE(room.is_covered(BufferId::OldManifolds));
     for (int step = 0; step < 3; ++step) {
-        room.begin_constraints();
+        room.place_constraints(ConstraintPlace::OverOldContacts);
         EXPECT_FALSE(room.is_covered(BufferId::Manifolds));
         EXPECT_TRUE(room.is_covered(BufferId::OldPointImpulses));
         const ContactRoom before = room;
@@ -113,6 +130,22 @@ TEST(ContactRooms, have_constraints_over_the_old_contacts_in_a_step_and_over_the
             EXPECT_FALSE(room.is_covered(old));
         }
     }
+}
+
+TEST(ContactRooms, have_a_few_constraints_beside_the_contacts_of_two_steps) {
+    ContactRoom room = room_for(1000, 600, false, 65'536);
+    EXPECT_EQ(room.constraints_beside(), 65'536 * sizeof(uint) / sizeof(engine::ContactConstraint));
+    room.place_constraints(ConstraintPlace::BesideContacts);
+    for (int step = 0; step < 2; ++step) {
+        for (const BufferId id : all_contacts())
+            EXPECT_FALSE(room.is_covered(id));
+        room.swap();
+    }
+    const ContactRoom grown = room.grown({2000, 1200, 65'536, false});
+    EXPECT_TRUE(grown.is_covered(BufferId::Manifolds)) << "as many as had room before have it for sure";
+    EXPECT_FALSE(grown.is_covered(BufferId::OldManifolds));
+    EXPECT_EQ(room_for(100, 70, true).constraints_beside(), 70u) << "all lie there";
+    EXPECT_EQ(room_for(100, 0, false).constraints_beside(), 0u);
 }
 
 TEST(ContactRooms, cover_nothing_where_the_old_contacts_are_kept) {
@@ -217,7 +250,7 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
     uint pairs = 10;
     for (const bool keeps_old : {false, false, true, true, false}) {
         for (int step = 0; step < 3; ++step) {
-            device->begin_constraints();
+            device->place_constraints(ConstraintPlace::OverOldContacts);
             device->swap_contacts();
             write();
             check();
@@ -241,7 +274,7 @@ TEST_P(ContactMemory, is_kept_when_only_the_table_grows) {
                 ContactDemand demand{300, manifolds, 600, keeps_old};
                 device->reserve_contacts(demand);
                 for (int i = 0; i < steps; ++i) {
-                    device->begin_constraints();
+                    device->place_constraints(ConstraintPlace::OverOldContacts);
                     device->swap_contacts();
                 }
                 std::map<BufferId, std::vector<std::byte>> written;

@@ -33,7 +33,8 @@ public:
     void read(std::span<const engine::ReadRequest> requests) override { device->read(requests); }
     void swap(engine::BufferId a, engine::BufferId b) override { device->swap(a, b); }
     void reserve_contacts(const engine::ContactDemand& demand) override { device->reserve_contacts(demand); }
-    void begin_constraints() override { device->begin_constraints(); }
+    void place_constraints(engine::ConstraintPlace where) override { device->place_constraints(where); }
+    engine::uint constraints_beside() const override { return device->constraints_beside(); }
     bool has_old_contacts() const override { return device->has_old_contacts(); }
     void swap_contacts() override { device->swap_contacts(); }
     void set_parameters(const engine::Parameters& parameters) override { device->set_parameters(parameters); }

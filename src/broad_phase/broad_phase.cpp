@@ -92,7 +92,9 @@ static void search(Device& device, const StepPlan& plan) {
     const std::initializer_list<Binding> bindings{{"StrayMarks", BufferId::LaunchedBodies}};
     device.run({.kernel = find_strays, .items = plan.body_count, .bindings = bindings});
     if (plan.search == Search::None) return;
-    device.run({.kernel = search_strays, .items = std::max(plan.body_count, plan.pair_capacity), .bindings = bindings});
+    constexpr uint most_items = 1u << 17; // each group has a beginning to make
+    device.run({.kernel = search_strays, .items = std::min(plan.body_count, most_items), .bindings = bindings});
+    device.run({.kernel = find_known_pairs, .items = plan.pair_capacity, .bindings = bindings});
     device.run({.kernel = add_pairs, .items = 1});
     if (plan.search != Search::All) return;
     if (plan.sweeps_in_group()) {
@@ -106,10 +108,13 @@ static void search(Device& device, const StepPlan& plan) {
 
 void broad_phase(Device& device, const StepPlan& plan) {
     search(device, plan);
-    device.run({.kernel = plan_pairs,
-                .items = 1,
-                .args = {static_cast<uint>(plan.search), plan.makes_graph, plan.other_graph,
-                         plan.watch != ContactWatch::None}});
+    const uint other_graph = plan.other_graph ? 1
+                             : plan.sleeping  ? 2
+                                              : 0; // who sleeps is found anew while any is awake
+    device.run(
+        {.kernel = plan_pairs,
+         .items = 1,
+         .args = {static_cast<uint>(plan.search), plan.makes_graph, other_graph, plan.watch != ContactWatch::None}});
 }
 
 } // namespace talus::engine

@@ -13,6 +13,7 @@ void broad_phase(Device&, const StepPlan&);
 
 extern const Kernel find_strays;
 extern const Kernel search_strays;
+extern const Kernel find_known_pairs;
 extern const Kernel add_pairs;
 extern const Kernel update_aabbs;
 extern const Kernel order_bodies;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: whether it has left the box that the last search for pairs had of it. Then it is a stray, whose
 // pairs are searched for anew. Where there are many strays, or many pairs have been added to the list since it was made, or it is
-// not of these slots, all pairs are.
+// not of these slots, all pairs are. Also whether any body is awake, where some may sleep.
 // Reads: Poses, Velocities, Shapes, OrientedBoxes.
-// Writes: Counters; Strays, in any order; StrayMarks, 1 of a stray, unless all are searched for.
+// Writes: Counters; Strays, in any order; StrayMarks, unless all are searched for.
 // Needs: nothing.
 // Overflow: none; after a step that did not fit nothing is searched for, as it will be done again with the pairs that it
 // had.
@@ -11,6 +11,7 @@
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
 #include "broad_phase/strays.shared.glsl"
+#include "resolution/sleep.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -24,13 +25,24 @@ layout(std430) writeonly buffer StrayMarks { uint stray_marks[]; };
 
 #include "broad_phase/box_now.glsl"
 
+void note_if_awake(uint body)
+{
+    if (counters[k_counter_awake] != 0u) return;
+    if (is_awake(unpack(poses[body]), unpack(velocities[body]), unpack(shapes[body]), parameters))
+        counters[k_counter_awake] = 1u; // all write the same
+}
+
 void main()
 {
     uint body = item_index();
     if (body >= parameters.body_count || counters[k_counter_did_not_fit] != 0u) return;
+    bool may_sleep = parameters.rest_steps > 0u;
+    bool asleep = may_sleep && is_asleep(unpack(poses[body]));
+    if (may_sleep && !asleep) note_if_awake(body);
     if (counters[k_counter_search_count] != 0u) return; // it is known already
     stray_marks[body] = 0u;
     bool other_list = counters[k_counter_searched_slots] != parameters.body_count;
+    if (!other_list && asleep) return; // where it was
     if (!other_list && is_within(box_now(body), unpack(oriented_boxes[body]))) return;
     bool takes_all = other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
     uint most = most_strays(parameters.body_count);
@@ -41,5 +53,5 @@ void main()
         return;
     }
     strays[place] = body;
-    stray_marks[body] = 1u;
+    stray_marks[body] = k_stray;
 }

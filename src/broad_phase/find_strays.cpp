@@ -8,10 +8,20 @@
 
 namespace talus::engine {
 
+static void note_who_is_awake(CpuState& state) {
+    state.parallel(state.parameters.body_count, [&](uint body) {
+        const std::atomic_ref awake(state.counters[k_counter_awake]);
+        if (awake.load(std::memory_order_relaxed) == 0 &&
+            is_awake(state.poses[body], state.velocities[body], state.shapes[body], state.parameters))
+            awake.store(1, std::memory_order_relaxed);
+    });
+}
+
 static void find_strays_on_cpu(CpuState& state, const Launch&) {
     Array<uint>& counters = state.counters;
     if (counters[k_counter_did_not_fit] != 0) return;
     const uint body_count = state.parameters.body_count;
+    if (state.parameters.rest_steps > 0) note_who_is_awake(state);
     const bool other_list = counters[k_counter_searched_slots] != body_count;
     const bool takes_all =
         other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);

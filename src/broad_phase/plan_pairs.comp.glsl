@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation: how many pairs there are, whether they fit, and the launches that treat them.
 // args.x: k_search_*, what had launches. args.y: 1 where the constraint graph has them. args.z: 1 where the host knows that it is
-// not the last step's. args.w: 1 where the last step's pairs are looked up in any case.
+// not the last step's, 2 where it is only if nothing is awake. args.w: 1 where the last step's pairs are looked up in any case.
 // Reads: Counters.
 // Writes: Counters, Dispatches, Arrivals.
 // Needs: a barrier after the scan of the pair counts.
@@ -56,7 +56,7 @@ void main()
     counters[k_counter_pair_count] = pair_count;
     bool other_pairs = counters[k_counter_pairs_changed] != 0u;
     bool may_have_other_shares = args.y == 1u && counters[k_counter_hub_count] > 0u; // else weigh_hubs knows
-    if (other_pairs || args.z == 1u)
+    if (other_pairs || args.z == 1u || (args.z == 2u && counters[k_counter_awake] != 0u))
         counters[k_counter_graph_due] = 1u;
     else if (may_have_other_shares && counters[k_counter_graph_due] == 0u)
         counters[k_counter_graph_due] = k_due_for_hubs;
@@ -67,8 +67,11 @@ void main()
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;
     counters[k_counter_launched_bodies] = 0u;
+    counters[k_counter_unsettled_pairs] = 0u;
+    counters[k_counter_awake] = 0u;
     arrivals[0] = 0u; // of the first launch whose groups wait for each other
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
+    dispatches[k_dispatch_unsettled_pairs] = groups_for(0u, k_group_size);
     bool looks_up = other_pairs || args.w == 1u;
     dispatches[k_dispatch_table] = groups_for(looks_up ? parameters.table_size : 0u, k_group_size);
     dispatches[k_dispatch_old_pairs] = groups_for(looks_up ? counters[k_counter_old_pair_count] : 0u, k_group_size);

@@ -48,7 +48,7 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_pair_count] = pair_count;
     const bool other_pairs = counters[k_counter_pairs_changed] != 0;
     const bool may_have_other_shares = launch.args[1] == 1 && counters[k_counter_hub_count] > 0;
-    if (other_pairs || launch.args[2] == 1)
+    if (other_pairs || launch.args[2] == 1 || (launch.args[2] == 2 && counters[k_counter_awake] != 0))
         counters[k_counter_graph_due] = 1;
     else if (may_have_other_shares && counters[k_counter_graph_due] == 0)
         counters[k_counter_graph_due] = k_due_for_hubs;
@@ -57,8 +57,10 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
         counters[counter] = 0;
     counters[k_counter_sleeping_bodies] = 0;
     counters[k_counter_launched_bodies] = 0;
+    counters[k_counter_unsettled_pairs] = counters[k_counter_awake] = 0;
     state.arrivals[0] = 0;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
+    state.dispatches[k_dispatch_unsettled_pairs] = groups_for(0, k_group_size);
     const bool looks_up = other_pairs || launch.args[3] == 1;
     state.dispatches[k_dispatch_table] = groups_for(looks_up ? state.parameters.table_size : 0, k_group_size);
     state.dispatches[k_dispatch_old_pairs] =

@@ -11,7 +11,12 @@
 
 namespace talus::engine {
 
-static void search_strays_on_cpu(CpuState& state, const Launch&) {
+static bool was_near(const CpuState& state, uint stray, uint body) {
+    return is_candidate(state.aabbs[stray], state.aabbs[body]) &&
+           !faces_part(state.oriented_boxes[stray], state.oriented_boxes[body]);
+}
+
+static void search_strays_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& counters = state.counters;
     if (counters[k_counter_search_count] != 0) return;
     const std::span<const uint> strays(state.strays.data, counters[k_counter_stray_count]);
@@ -26,10 +31,13 @@ static void search_strays_on_cpu(CpuState& state, const Launch&) {
     for (const uint stray : strays)
         is_stray[stray] = true;
 
-    const auto note = [&](const Array<Pair>& list, uint counter, Pair pair) {
-        const uint place = std::atomic_ref(counters[counter]).fetch_add(1);
+    const Array<uint> marks = state.words(launch.bound("StrayMarks"));
+    std::fill_n(marks.data, state.parameters.body_count, 0u);
+    const auto note_near = [&](uint stray, uint body) {
+        std::atomic_ref(marks[stray]).store(k_stray_near, std::memory_order_relaxed);
+        const uint place = std::atomic_ref(counters[k_counter_near_pairs]).fetch_add(1);
         if (place < most_stray_pairs(state.parameters.body_count))
-            list[place] = pair;
+            state.near_pairs[place] = make_pair(stray, body);
         else
             std::atomic_ref(counters[k_counter_search_count]).store(state.parameters.body_count);
     };
@@ -41,13 +49,10 @@ static void search_strays_on_cpu(CpuState& state, const Launch&) {
             memory.find_partners(is_stray[body] ? compute_aabb(other) : state.aabbs[body], 0,
                                  static_cast<uint>(strays.size()), near);
             for (const uint i : near)
-                if ((!is_stray[body] || body > strays[i]) && !faces_part(oriented[i], other))
-                    note(state.near_pairs, k_counter_near_pairs, make_pair(strays[i], body));
+                if ((!is_stray[body] || body > strays[i]) && !faces_part(oriented[i], other) &&
+                    !was_near(state, strays[i], body))
+                    note_near(strays[i], body);
         }
-    });
-    state.parallel(counters[k_counter_pair_demand], [&](uint i) {
-        const Pair pair = state.pairs[i];
-        if (is_stray[pair.body_a] || is_stray[pair.body_b]) note(state.known_pairs, k_counter_known_pairs, pair);
     });
 }
 

@@ -12,6 +12,10 @@ inline uint most_stray_pairs(uint body_count) { return k_pairs_a_stray * most_st
 // Whether the list has had so many pairs added since it was made that a new one would be much shorter.
 inline bool is_much_added(uint added, uint pair_count) { return added > pair_count / k_share_added; }
 
+// In StrayMarks: of a stray, and of one that is near to somebody it was not near to.
+const uint k_stray = 1u;
+const uint k_stray_near = 2u;
+
 // The order in which pairs are added.
 inline bool comes_before(Pair a, Pair b)
 {

@@ -63,6 +63,9 @@ struct ContactDemand {
     bool keeps_old = false; ///< Constraints never lie over the old contacts, as the end of a step reads them
 };
 
+/// Where constraints are to lie in the room of contacts.
+enum class ConstraintPlace : std::uint8_t { OverOldContacts, OverNewContacts, BesideContacts };
+
 /// A parameterised kernel's block and the buffer that it stands for in this launch (primitives have such blocks).
 struct Binding {
     const char* block;
@@ -130,14 +133,17 @@ public:
     virtual void swap(BufferId, BufferId) = 0;
 
     /// Gives the buffers of contacts, Constraints and PairTable at least that room. From then on they grow and are
-    /// swapped together, and Constraints may lie over contacts that nobody wants any more: from begin_constraints on
-    /// over the old ones, and from swap_contacts on over the new ones, until kernels write these. PairTable may lie
-    /// over Constraints, so that each is there until kernels write the other. Constraints and contacts that they do not
-    /// lie over keep their content. Old contacts are kept for good once they are. Not while a step is on its way that
-    /// may be done again.
+    /// swapped together, and Constraints may lie over contacts that nobody wants any more: over the old ones from
+    /// place_constraints on, and so over the new ones from swap_contacts on, until kernels write these. PairTable may
+    /// lie over Constraints, so that each is there until kernels write the other. Constraints and contacts that they do
+    /// not lie over keep their content. Old contacts are kept for good once they are. Not while a step is on its way
+    /// that may be done again.
     virtual void reserve_contacts(const ContactDemand&);
-    /// Kernels that are given from here on write Constraints; those that read the old contacts need keeps_old.
-    virtual void begin_constraints() {}
+    /// Kernels that are given from here on write Constraints. Where these lie over the old contacts, those that read
+    /// them need keeps_old. Beside contacts there is room for constraints_beside() of them at most.
+    virtual void place_constraints(ConstraintPlace) {}
+    /// As many constraints as lie over no contacts.
+    virtual uint constraints_beside() const { return k_none; }
     /// Whether nothing may have been written over the old contacts.
     virtual bool has_old_contacts() const { return true; }
     /// The new contacts become the old ones, and these make place for new ones.

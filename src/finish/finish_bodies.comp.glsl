@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: its new pose, for how long it has rested, and no load for the next step. A body that would
 // become non-finite stays where it was and is frozen; one that sleeps is left alone, and wakes with the next step where what presses
-// on it has changed. Where each was is kept for whoever asks for the step's contacts. The first invocation also makes this step's pairs
-// the last step's.
-// args.x: 1 where an island may sleep in parts.
+// on it has changed, and of that there are no sums any more. Where each was is kept for whoever asks for the step's contacts. The first
+// invocation also makes this step's pairs the last step's.
+// args.x: 1 where an island may sleep in parts. args.y: 1 where Starts holds what the last step wrote.
 // Reads: Shapes, Deltas, Counters; where an island may sleep in parts IslandFill, Balances, Properties.
-// Writes: Starts; Poses, Loads, Rests, Counters; Velocities where a body is frozen or too fast.
+// Writes: Starts; Poses, Loads, Rests, Balances, Counters; Velocities where a body is frozen or too fast.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit, and does nothing after one that went wrong.
 #include "state/math.shared.glsl"
@@ -27,7 +27,7 @@ layout(std430) buffer Loads { BodyLoadCells loads[]; };
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer IslandFill { uint island_fill[]; };
-layout(std430) readonly buffer Balances { uint balances[]; };
+layout(std430) buffer Balances { uint balances[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 
 float balance_of(uint body, uint word) { return speed_of_balance(balances[k_balance_words * body + word]); }
@@ -49,15 +49,22 @@ void main()
     if ((counters[k_counter_did_not_fit] & k_fit_groups) != 0u) return;
     if (body == 0u) {
         counters[k_counter_old_pair_count] = counters[k_counter_pair_count];
+        counters[k_counter_same_list] = counters[k_counter_pairs_changed] == 0u ? 1u : 0u;
         counters[k_counter_pairs_changed] = 0u;
     }
     if (body >= parameters.body_count) return;
     BodyPose pose = unpack(poses[body]);
-    starts[body] = pack(start_at(pose));
+    bool is_kept = args.y == 1u && is_asleep(pose) && is_settled(pose);
+    if (!is_kept) starts[body] = pack(start_at(pose));
     if (is_asleep(pose)) {
-        bool is_weighed = args.x == 1u && (island_fill[body] & k_pressed) != 0u && (pose.flags & k_body_frozen) == 0u;
-        if (is_weighed && !is_in_balance(body))
+        bool is_weighed = args.x == 1u && (island_fill[body] & k_pressed) != 0u;
+        if (is_weighed && !is_in_balance(body) && (pose.flags & k_body_frozen) == 0u) {
             rests[body] = pack(with_calm(unpack(rests[body]), 0u));
+            pose.flags &= ~k_body_in_part;
+            poses[body] = pack(pose);
+        }
+        for (uint word = 0u; is_weighed && word < k_balance_words; ++word)
+            balances[k_balance_words * body + word] = 0u; // for the next step
         return;
     }
     bool moves = is_mover(unpack(shapes[body]));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of finish_bodies.comp.glsl.
+#include <algorithm>
 #include <atomic>
 
 #include "device/cpu/cpu_state.h"
@@ -21,6 +22,7 @@ static bool is_in_balance(const CpuState& state, uint body) {
 static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
     const Parameters& p = state.parameters;
     state.counters[k_counter_old_pair_count] = state.counters[k_counter_pair_count];
+    state.counters[k_counter_same_list] = state.counters[k_counter_pairs_changed] == 0 ? 1 : 0;
     state.counters[k_counter_pairs_changed] = 0;
     const auto is_noted = [&](uint body, uint what) {
         return launch.args[0] == 1 && (state.island_fill[body] & what) != 0;
@@ -29,8 +31,12 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
         BodyPose& pose = state.poses[body];
         state.starts[body] = start_at(pose);
         if (is_asleep(pose)) {
-            const bool is_weighed = is_noted(body, k_pressed) && (pose.flags & k_body_frozen) == 0;
-            if (is_weighed && !is_in_balance(state, body)) state.rests[body] = with_calm(state.rests[body], 0);
+            if (!is_noted(body, k_pressed)) return;
+            if (!is_in_balance(state, body) && (pose.flags & k_body_frozen) == 0) {
+                state.rests[body] = with_calm(state.rests[body], 0);
+                pose.flags &= ~k_body_in_part;
+            }
+            std::fill_n(&state.balances[std::size_t{k_balance_words} * body], k_balance_words, 0u);
             return;
         }
         const bool moves = is_mover(state.shapes[body]);

@@ -50,7 +50,7 @@ bool is_weighed(uint body) { return (island_fill[body] & k_pressed) != 0u; }
 void main()
 {
     uint entry = item_index();
-    if (entry >= counters[k_counter_graph_pairs] || counters[k_counter_did_not_fit] != 0u) return;
+    if (entry >= counters[k_counter_graph_pairs] || (counters[k_counter_did_not_fit] & ~k_fit_reports) != 0u) return;
     uint pair = manifold_order[entry];
     Manifold manifold = unpack(manifolds[pair]);
     if (!is_active(manifold)) return;

@@ -26,7 +26,7 @@ void add_push(CpuState& state, uint body, const Push& push) {
 }
 
 void weigh_sleepers_on_cpu(CpuState& state, const Launch&) {
-    if (state.counters[k_counter_did_not_fit] != 0) return;
+    if ((state.counters[k_counter_did_not_fit] & ~k_fit_reports) != 0) return;
     const auto is_weighed = [&](uint body) { return (state.island_fill[body] & k_pressed) != 0; };
     state.parallel(state.counters[k_counter_graph_pairs], [&](uint entry) {
         const uint pair = state.manifold_order[entry];

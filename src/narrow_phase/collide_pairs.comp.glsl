@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3). Of a pair in
 // which a body sleeps and nothing moves it is the last step's.
-// Reads: Counters, Pairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds, OldManifoldPoints,
+// args.x: 1 where pairs are listed, as all others have their contacts already (list_unsettled_pairs).
+// Reads: Counters, Pairs, UnsettledPairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds, OldManifoldPoints,
 // OldPointImpulses; of a pair that sleeps OldPointSeparations.
 // Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; PointImpulses; where they touch or sleep
 // ManifoldPoints and PointSeparations; Counters, where two bodies touch that did not in the last step, or touch no longer, by which the
@@ -28,6 +29,7 @@ layout(local_size_x = 64) in;
 
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Pairs { Pair pairs[]; };
+layout(std430) readonly buffer UnsettledPairs { uint unsettled_pairs[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
@@ -144,7 +146,8 @@ void compare_with_last(uint pair_index, Manifold manifold)
 void main()
 {
     uint pair_index = item_index();
-    if (pair_index >= counters[k_counter_pair_count]) return;
+    if (pair_index >= counters[args.x == 1u ? k_counter_unsettled_pairs : k_counter_pair_count]) return;
+    if (args.x == 1u) pair_index = unsettled_pairs[pair_index];
     Pair pair = pairs[pair_index];
     if (parameters.rest_steps > 0u && sleeps(pair.body_a, pair.body_b)) {
         keep_manifold(pair_index, pair, old_manifold_of(pair_index, pair));
@@ -173,6 +176,11 @@ void main()
         collide_moving_shapes(pose_a, shape_a, pose_b, shape_b, motion, carriers, max_separation);
     bool sensed = is_sensed(shape_a, shape_b);
     if (sensed && !can_meet(shape_a, shape_b)) g.count = 0u;
+    if (g.count == 0u) {
+        put_none(pair_index, pair);
+        compare_with_last(pair_index, no_manifold(pair));
+        return;
+    }
 
     // The rest of the last manifold is read here, as registers are short in the collision.
     Manifold manifold = make_manifold(pair, g, unpack(properties[pair.body_a]), unpack(properties[pair.body_b]));
@@ -190,7 +198,6 @@ void main()
     manifolds[pair_index] = pack(manifold);
     put_impulses(pair_index, impulses);
     compare_with_last(pair_index, manifold);
-    if (g.count == 0u) return;
     point_separations[pair_index] = pack(make_separations(g));
     put_point(pair_index, 0u, g.count, g.points[0], g.features[0]);
     put_point(pair_index, 1u, g.count, g.points[1], g.features[1]);

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <span>
 
 #include "device/cpu/cpu_state.h"
 #include "narrow_phase/lane_queries.h"
 #include "narrow_phase/narrow_phase.h"
 #include "narrow_phase/pair_table.h"
+#include "narrow_phase/pairs_in_bits.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -32,11 +34,11 @@ OldPoints read_old_points(const CpuState& state, uint old_index) {
 }
 
 bool sleeps(const CpuState& state, const Pair& pair) {
-    const auto is_left_alone = [&](uint body) {
-        return engine::is_left_alone(state.poses[body], state.velocities[body], state.shapes[body]);
+    const auto stays = [&](uint body) {
+        return is_left_alone(state.poses[body], state.velocities[body], state.shapes[body]);
     };
-    return (is_asleep(state.poses[pair.body_a]) || is_asleep(state.poses[pair.body_b])) && is_left_alone(pair.body_a) &&
-           is_left_alone(pair.body_b);
+    return (is_asleep(state.poses[pair.body_a]) || is_asleep(state.poses[pair.body_b])) && stays(pair.body_a) &&
+           stays(pair.body_b);
 }
 
 void put_none(CpuState& state, uint pair_index) {
@@ -87,6 +89,7 @@ void put_manifold(CpuState& state, const PairInHand& in_hand, ContactGeometry& g
     const BodyShape &shape_a = state.shapes[pair.body_a], &shape_b = state.shapes[pair.body_b];
     const bool sensed = is_sensed(shape_a, shape_b);
     if (sensed && !can_meet(shape_a, shape_b)) g.count = 0;
+    if (g.count == 0) return put_none(state, in_hand.index);
 
     Manifold manifold = make_manifold(pair, g, state.properties[pair.body_a], state.properties[pair.body_b]);
     vec4 impulses(0.0f);
@@ -102,7 +105,6 @@ void put_manifold(CpuState& state, const PairInHand& in_hand, ContactGeometry& g
     }
     state.manifolds[in_hand.index] = manifold;
     state.point_impulses[in_hand.index] = {impulses};
-    if (g.count == 0) return;
     state.point_separations[in_hand.index] = make_separations(g);
     for (uint i = 0; i < g.count; ++i)
         state.manifold_points[std::size_t{4} * in_hand.index + i] = make_point(g.points[i], g.features[i]);
@@ -113,19 +115,29 @@ bool are_boxes(const CpuState& state, const Pair& pair) {
     return is_box(pair.body_a) && is_box(pair.body_b);
 }
 
-constexpr uint k_part = 64; // pairs that a thread treats together, and bits of a word
+constexpr uint k_part = k_pairs_a_part;
 
-/// The pairs of a part that have to be collided; the others' manifolds are written.
-uint take_in_hand(CpuState& state, uint first, uint end, bool same_pairs, std::array<PairInHand, k_part>& in_hand) {
+/// Of those of a part that are listed, a bit each, those that do not sleep; the others' manifolds are written.
+std::uint64_t find_awake(CpuState& state, uint first, std::uint64_t listed, bool same_pairs) {
+    if (state.parameters.rest_steps == 0) return listed;
+    std::uint64_t awake = listed;
+    for (; listed != 0; listed &= listed - 1) {
+        const uint index = first + static_cast<uint>(std::countr_zero(listed));
+        if (!sleeps(state, state.pairs[index])) continue;
+        awake &= ~(listed & (0 - listed));
+        keep_manifold(state, index, old_manifold_of(state, index, same_pairs));
+    }
+    return awake;
+}
+
+/// Of the awake pairs of a part those that have to be collided; the others' manifolds are written.
+uint take_in_hand(CpuState& state, uint first, uint end, std::uint64_t awake, bool same_pairs,
+                  std::array<PairInHand, k_part>& in_hand) {
     uint count = 0;
     const NearPairs near = find_near(state, &state.pairs[first], end - first); // the search saw boxes with a skin
     for (uint index = first; index < end; ++index) {
-        const Pair pair = state.pairs[index];
         const auto is_among = [&](std::uint64_t pairs) { return (pairs >> (index - first) & 1u) != 0; };
-        if (state.parameters.rest_steps > 0 && sleeps(state, pair)) {
-            keep_manifold(state, index, old_manifold_of(state, index, same_pairs));
-            continue;
-        }
+        if (!is_among(awake)) continue;
         const uint old_index = is_among(near.still) ? old_manifold_of(state, index, same_pairs) : k_none;
         if (old_index == k_none && !is_among(near.now))
             put_none(state, index);
@@ -185,13 +197,18 @@ void collide_boxes_ahead(const CpuState& state, std::span<const PairInHand> pair
     }
 }
 
-void collide_pairs_on_cpu(CpuState& state, const Launch&) {
+void collide_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const uint pair_count = state.counters[k_counter_pair_count];
     const bool same_pairs = state.counters[k_counter_pairs_changed] == 0;
+    const bool some = launch.args[0] == 1;
+    const Array<uint> words = state.words(launch.bound("UnsettledPairs"));
     const auto collide_part = [&](uint, uint first, uint end) {
+        const std::uint64_t all = ~std::uint64_t{0} >> (k_part - (end - first));
+        const std::uint64_t awake = find_awake(state, first, some ? bits_at(words, first) : all, same_pairs);
+        if (awake == 0) return;
         std::array<PairInHand, k_part> in_hand;
         std::array<ContactGeometry, k_part> found;
-        const uint count = take_in_hand(state, first, end, same_pairs, in_hand);
+        const uint count = take_in_hand(state, first, end, awake, same_pairs, in_hand);
         const auto others = std::partition(in_hand.begin(), in_hand.begin() + count, [&](const PairInHand& each) {
             return are_boxes(state, state.pairs[each.index]);
         });
@@ -202,7 +219,7 @@ void collide_pairs_on_cpu(CpuState& state, const Launch&) {
         for (uint i = 0; i < count; ++i)
             put_manifold(state, in_hand[i], found[i]);
         for (uint index = first; same_pairs && index < end; ++index)
-            compare_with_last(state, index);
+            if ((awake >> (index - first) & 1u) != 0) compare_with_last(state, index);
     };
     state.parallel_parts(pair_count, k_part, collide_part, 2 * k_part);
 }

@@ -16,6 +16,7 @@ void index_old_manifolds(Device&);
 
 extern const Kernel clear_pair_table;
 extern const Kernel fill_pair_table;
+extern const Kernel list_unsettled_pairs;
 extern const Kernel collide_pairs;
 
 } // namespace talus::engine

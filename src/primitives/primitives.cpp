@@ -81,8 +81,9 @@ void sort_digit_by_digit(Device& device, const Sort& sort) {
 
 } // namespace
 
-void exclusive_scan(Device& device, BufferId values, uint capacity, uint count_counter, uint total_counter) {
-    scan(device, values, capacity, count_counter, total_counter, 1, 1);
+void exclusive_scan(Device& device, BufferId values, uint capacity, uint count_counter, uint total_counter,
+                    uint group_size) {
+    scan(device, values, capacity, count_counter, total_counter, group_size, 1);
 }
 
 void begin_sort(Device& device, const Sort& sort) {

@@ -13,8 +13,9 @@ namespace talus::engine {
 
 /// Replaces each of the first Counters[count_counter] words of `values` by the sum of those before it, and writes the
 /// sum of all to Counters[total_counter], unless that is k_none; it must not be the count's own word, which other
-/// groups still read. Sums are modulo 2^32.
-void exclusive_scan(Device&, BufferId values, uint capacity, uint count_counter, uint total_counter);
+/// groups still read. Sums are modulo 2^32. `group_size`: so many of what is counted share a word.
+void exclusive_scan(Device&, BufferId values, uint capacity, uint count_counter, uint total_counter,
+                    uint group_size = 1);
 
 /// What a sort works on.
 struct Sort {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of begin_awake.comp.glsl.
-#include <algorithm>
-
 #include "device/cpu/cpu_state.h"
 #include "resolution/resolution.h"
 #include "state/formulas.h"
@@ -10,13 +8,15 @@ namespace talus::engine {
 
 static void begin_awake_on_cpu(CpuState& state, const Launch&) {
     state.parallel(state.counters[k_counter_graph_bodies], [&](uint body) {
-        if (state.islands[body] != k_none) {
-            state.substeps[body] = state.island_groups[body];
-            state.islands[body] = state.island_groups[body] != 0 ? body : k_none;
-        }
         state.island_sizes[body] = state.island_starts[body] = 0;
+        if (state.islands[body] != k_none) {
+            const uint word = state.island_groups[body];
+            const bool in_part = (word & k_kept_island) != 0, awake = word != 0 && !in_part;
+            state.substeps[body] = awake ? word : 0;
+            state.islands[body] = awake ? body : k_none;
+            if (in_part) state.island_sizes[body] = word;
+        }
         state.island_fill[body] &= k_touched;
-        std::fill_n(&state.balances[std::size_t{k_balance_words} * body], k_balance_words, 0u);
     });
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Where the last step's constraint graph is not this one's: the first invocation sets the counts to nothing, and plans the launches
 // that make it. Each is a body slot: no colour in use, no rank seen, no hub; and an island of its own, of the least sub-steps, if
-// contacts can push it. Where bodies may sleep, who is restless. Where the graph lasts these launches, and those that follow, do nothing.
-// args.x: 1 where islands are measured.
+// contacts can push it. Where bodies may sleep, who is restless, and who is quiet. Where the graph lasts these launches, and those that
+// follow, do nothing.
+// args.x: 1 where islands are measured. args.y: 1 where parts of them may sleep.
 // Reads: Shapes, Poses, Velocities.
 // Writes: BodyColours, Islands, Substeps, IslandSizes, IslandStarts, IslandFill; Counters, Dispatches.
 // Needs: a barrier after collide_pairs, which may find that the graph is due.
@@ -64,9 +65,14 @@ void begin_island(uint body)
     substeps[body] = parameters.least_substeps;
     island_sizes[body] = 0u;
     island_starts[body] = 0u;
-    bool restless = parameters.rest_steps > 0u &&
-                    is_restless(unpack(poses[body]), unpack(velocities[body]), shape, parameters);
-    island_fill[body] = restless ? k_restless : 0u;
+    island_fill[body] = 0u;
+    if (parameters.rest_steps == 0u) return;
+    BodyPose pose = unpack(poses[body]);
+    // Where all pairs have been searched for, what parts stand for is found anew.
+    bool quiet = args.y == 1u && counters[k_counter_pairs_changed] == 0u && is_quiet_part(pose);
+    bool restless = !quiet && is_restless(pose, unpack(velocities[body]), shape, parameters);
+    quiet = quiet || (args.y == 1u && !is_movable(shape) && !restless);
+    island_fill[body] = (restless ? k_restless : 0u) | (quiet ? k_quiet : 0u);
 }
 
 void main()

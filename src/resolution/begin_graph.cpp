@@ -40,8 +40,14 @@ static void begin_graph_on_cpu(CpuState& state, const Launch& launch) {
         state.islands[body] = is_movable(shape) ? body : k_none;
         state.substeps[body] = p.least_substeps;
         state.island_sizes[body] = state.island_starts[body] = 0;
-        const bool restless = p.rest_steps > 0 && is_restless(state.poses[body], state.velocities[body], shape, p);
-        state.island_fill[body] = restless ? k_restless : 0;
+        state.island_fill[body] = 0;
+        if (p.rest_steps == 0) return;
+        const bool in_parts = launch.args[1] == 1;
+        const bool same_pairs = state.counters[k_counter_pairs_changed] == 0; // else what parts stand for is found anew
+        const bool part = in_parts && same_pairs && is_quiet_part(state.poses[body]);
+        const bool restless = !part && is_restless(state.poses[body], state.velocities[body], shape, p);
+        const bool quiet = part || (in_parts && !is_movable(shape) && !restless);
+        state.island_fill[body] = (restless ? k_restless : 0) | (quiet ? k_quiet : 0);
     });
 }
 

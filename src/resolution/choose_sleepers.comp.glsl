@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: whether it sleeps in this step. An island that a group can solve sleeps as a whole, where nothing in it
 // is restless, or touches what is. In a larger one each body sleeps that is at rest, and has been calm for as long as it has to rest.
+// What sleeps as a part of one, and has not been reached, sleeps on.
 // What is awake has the sub-steps that it would have if all were: with others contacts would be stiffer, and what rests would stir.
-// Launched in large worlds in which bodies may sleep. args.x: the size from which on an island is multirate; k_none: none is.
-// Reads: Counters, Islands, IslandSizes, IslandFill, Substeps, Rests.
-// Writes: IslandGroups: the sub-steps that a body is to have, as in Substeps; none where it sleeps.
+// Launched in large worlds in which bodies may sleep. args.x: the size from which on an island is multirate, where args.y is 1.
+// Reads: Counters, Islands, IslandSizes, IslandStarts (see measure_islands), IslandFill, Substeps, Rests.
+// Writes: IslandGroups: the sub-steps that a body is to have, as in Substeps; none where it sleeps with all of its island, and where it
+// sleeps as a part what is to be kept of the island.
 // Needs: a barrier after measure_islands.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -18,6 +20,7 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer IslandSizes { uint island_sizes[]; };
+layout(std430) readonly buffer IslandStarts { uint island_starts[]; };
 layout(std430) readonly buffer IslandFill { uint island_fill[]; };
 layout(std430) readonly buffer Rests { BodyRestCells rests[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
@@ -29,9 +32,21 @@ void main()
     if (body >= counters[k_counter_graph_bodies]) return;
     uint island = islands[body];
     if (island == k_none) return;
-    bool asleep = (island_fill[island] & k_awake) == 0u;
-    if (sleeps_in_parts(island_sizes[island]))
-        asleep = (island_fill[body] & (k_restless | k_touched)) == 0u && is_calm(unpack(rests[body]), parameters);
-    bool multirate = is_multirate_island(island_sizes[island], args.x);
-    island_groups[body] = asleep ? 0u : multirate ? k_multirate | substeps[body] : substeps[island];
+    bool is_part = (island_fill[body] & k_quiet) != 0u;
+    if (is_part && (island_fill[body] & k_reached) == 0u) {
+        island_groups[body] = k_kept_island;
+        return;
+    }
+    IslandAtRest at_rest = island_at_rest(island_sizes[island], island_starts[island], args.x, args.y == 1u);
+    uint own_substeps = substeps[body];
+    if (is_part) own_substeps = max(own_substeps, own_substeps_kept(unpack(rests[body]).calm));
+    bool awake = (island_fill[island] & k_awake) != 0u;
+    if (at_rest.in_parts)
+        awake = (island_fill[body] & (k_restless | k_touched)) != 0u || !is_calm(unpack(rests[body]), parameters);
+    if (awake)
+        island_groups[body] = at_rest.multirate ? k_multirate | own_substeps : substeps[island];
+    else if (is_part)
+        island_groups[body] = k_kept_island; // as it is
+    else
+        island_groups[body] = at_rest.in_parts ? keep_island(at_rest, island_sizes[island], own_substeps, substeps[island]) : 0u;
 }

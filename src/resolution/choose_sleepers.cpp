@@ -11,12 +11,21 @@ static void choose_sleepers_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(state.counters[k_counter_graph_bodies], [&](uint body) {
         const uint island = state.islands[body];
         if (island == k_none) return;
-        bool asleep = (state.island_fill[island] & k_awake) == 0;
-        if (sleeps_in_parts(state.island_sizes[island]))
-            asleep = (state.island_fill[body] & (k_restless | k_touched)) == 0 && is_calm(state.rests[body], p);
-        const bool multirate = is_multirate_island(state.island_sizes[island], launch.args[0]);
-        const uint substeps = multirate ? k_multirate | state.substeps[body] : state.substeps[island];
-        state.island_groups[body] = asleep ? 0 : substeps;
+        const uint fill = state.island_fill[body], size = state.island_sizes[island];
+        const bool is_part = (fill & k_quiet) != 0;
+        if (is_part && (fill & k_reached) == 0) {
+            state.island_groups[body] = k_kept_island;
+            return;
+        }
+        const IslandAtRest at_rest =
+            island_at_rest(size, state.island_starts[island], launch.args[0], launch.args[1] == 1);
+        uint own_substeps = state.substeps[body];
+        if (is_part) own_substeps = max(own_substeps, own_substeps_kept(state.rests[body].calm));
+        bool awake = (state.island_fill[island] & k_awake) != 0;
+        if (at_rest.in_parts) awake = (fill & (k_restless | k_touched)) != 0 || !is_calm(state.rests[body], p);
+        const uint substeps = at_rest.multirate ? k_multirate | own_substeps : state.substeps[island];
+        const uint kept = at_rest.in_parts ? keep_island(at_rest, size, own_substeps, state.substeps[island]) : 0;
+        state.island_groups[body] = awake ? substeps : is_part ? k_kept_island : kept;
     });
 }
 

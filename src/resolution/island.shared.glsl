@@ -27,12 +27,16 @@ inline bool is_multirate_island(uint word, uint least_size)
 inline uint order_of_root(uint body) { return body * 0x9e3779b1u; }
 
 // In IslandFill, beside a count of bodies that have a place. A body may be restless, or touch one that is; an island is awake
-// where any of it is or does. Once it is known who sleeps: a sleeper that something awake touches is pressed.
+// where any of it is or does. Quiet is what stands, and what sleeps as a part of a large island: contacts between the quiet join
+// nothing, as such a part stands for its island. It is reached where something else touches it. Once it is known who sleeps: a sleeper
+// that something awake touches is pressed.
 const uint k_restless = 0x80000000u;
 const uint k_touched = 0x40000000u;
 const uint k_awake = 0x20000000u;
 const uint k_pressed = 0x10000000u;
-const uint k_fill_count = 0x0fffffffu;
+const uint k_quiet = 0x08000000u;
+const uint k_reached = 0x04000000u;
+const uint k_fill_count = 0x03ffffffu;
 
 // What join_islands joins: all that contacts can push; the same, and it notes what restless bodies touch; or what is awake, of which it
 // is known already what it asks for.
@@ -40,8 +44,51 @@ const uint k_join_all = 0u;
 const uint k_join_to_sleep = 1u;
 const uint k_join_awake = 2u;
 
-// Whether what rests in an island may sleep while other parts of it move: a small one is solved as a whole, and at once.
-inline bool sleeps_in_parts(uint word) { return island_size(word) > k_most_single; }
+// What is kept of a large island for a body that sleeps as a part of it, in BodyRest::calm: the sub-steps that the body's contacts ask
+// for, and, unless each had its own, those that the whole island did; whether it had a tall column, and so many bodies that it might be
+// multirate. It counts as calm for however long.
+const uint k_kept_island = 0x80000000u;
+const uint k_kept_tall = 0x40000000u;
+const uint k_kept_many = 0x20000000u;
+const uint k_kept_shift = 12u; // of the island's sub-steps
+
+// Whether that is to be kept of a sleeper. k_kept_island alone says that what has been kept stays. `had_part`: it was one already; then it
+// is found anew where all pairs have been searched for.
+inline bool keeps_anew(uint kept, bool had_part, bool other_pairs)
+{
+    return kept != 0u && kept != k_kept_island && (!had_part || other_pairs);
+}
+
+inline uint own_substeps_kept(uint kept) { return kept & ((1u << k_kept_shift) - 1u); }
+inline uint substeps_kept(uint kept) { return (kept >> k_kept_shift) & ((1u << k_kept_shift) - 1u); }
+
+// In IslandStarts while it is asked who sleeps: what parts that have been reached say of an island, besides its sub-steps and columns.
+const uint k_has_part = 1u;
+const uint k_has_many = 2u;
+
+inline uint parts_said(uint kept) { return k_has_part | ((kept & k_kept_many) != 0u ? k_has_many : 0u); }
+
+// An island as it is to be known who sleeps of it. `size`: of IslandSizes.
+struct IslandAtRest {
+    bool in_parts;  // what rests may sleep while other parts of it move: a small one is solved as a whole, and at once
+    bool many;      // it may be multirate
+    bool multirate;
+};
+
+inline IslandAtRest island_at_rest(uint size, uint parts, uint least_multirate, bool may_be_multirate)
+{
+    IslandAtRest island;
+    island.in_parts = island_size(size) > k_most_single || parts != 0u;
+    island.many = island_size(size) >= least_multirate || (parts & k_has_many) != 0u;
+    island.multirate = island.many && may_be_multirate && (size & k_tall) == 0u;
+    return island;
+}
+
+inline uint keep_island(IslandAtRest island, uint size, uint own_substeps, uint substeps)
+{
+    return k_kept_island | ((size & k_tall) != 0u ? k_kept_tall : 0u) | (island.many ? k_kept_many : 0u) |
+           ((island.multirate ? own_substeps : substeps) << k_kept_shift) | own_substeps;
+}
 
 const uint k_launched = 0u; // in place of a group: the island has too many bodies for one
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: joins the islands of two bodies that touch, by hanging one root below the other
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
-// sub-steps of the manifold that asks for most.
+// sub-steps of the manifold that asks for most. Where it is asked who sleeps, contacts between the quiet are left alone.
 // args.x: k_join_*. The awake ones are those of listed pairs.
-// Reads: Counters, Manifolds; ManifoldOrder, the list.
-// Writes: Islands; Substeps; IslandSizes, that a column is tall; IslandFill, what is touched.
+// Reads: Counters, Manifolds; Pairs, where it is asked who sleeps; ManifoldOrder, the list.
+// Writes: Islands; Substeps; IslandSizes, that a column is tall; IslandFill, what is touched, and which parts are reached.
 // Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_graph.
 // Overflow: none.
@@ -17,6 +17,7 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) readonly buffer Pairs { Pair pairs[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) coherent buffer Islands { uint islands[]; };
 layout(std430) buffer Substeps { uint substeps[]; };
@@ -54,23 +55,28 @@ void join(uint body_a, uint body_b)
 }
 
 // Others may note the same.
-void note_touched(uint body)
+void note(uint body, uint what)
 {
-    if ((island_fill[body] & k_touched) == 0u) atomicOr(island_fill[body], k_touched);
+    if ((island_fill[body] & what) == 0u) atomicOr(island_fill[body], what);
 }
+
+bool is_quiet(uint body) { return (island_fill[body] & k_quiet) != 0u; }
 
 void main()
 {
     uint entry = item_index();
     if (entry >= counters[k_counter_graph_pairs]) return;
     uint pair = args.x == k_join_awake ? manifold_order[entry] : entry;
+    if (args.x == k_join_to_sleep && is_quiet(pairs[pair].body_a) && is_quiet(pairs[pair].body_b)) return;
     Manifold manifold = unpack(manifolds[pair]);
     if (!is_active(manifold)) return;
     bool pushes_a = islands[manifold.body_a] != k_none;
     bool pushes_b = islands[manifold.body_b] != k_none;
     if (args.x == k_join_to_sleep) {
-        if ((island_fill[manifold.body_a] & k_restless) != 0u) note_touched(manifold.body_b);
-        if ((island_fill[manifold.body_b] & k_restless) != 0u) note_touched(manifold.body_a);
+        if ((island_fill[manifold.body_a] & k_restless) != 0u) note(manifold.body_b, k_touched);
+        if ((island_fill[manifold.body_b] & k_restless) != 0u) note(manifold.body_a, k_touched);
+        if (is_quiet(manifold.body_a)) note(manifold.body_a, k_reached);
+        if (is_quiet(manifold.body_b)) note(manifold.body_b, k_reached);
     }
     if (args.x != k_join_awake) {
         if (pushes_a) atomicMax(substeps[manifold.body_a], substeps_of(manifold.demand));

@@ -14,11 +14,15 @@ static void join_islands_on_cpu(CpuState& state, const Launch& launch) {
         const uint pair = launch.args[0] == k_join_awake ? state.manifold_order[entry] : entry;
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
+        const auto is_quiet = [&](uint body) { return (fill[body] & k_quiet) != 0; };
+        if (launch.args[0] == k_join_to_sleep && is_quiet(a) && is_quiet(b)) continue;
         if (!is_active(manifold)) continue;
         const bool pushes_a = islands[a] != k_none, pushes_b = islands[b] != k_none;
         if (launch.args[0] == k_join_to_sleep) {
             if ((fill[a] & k_restless) != 0) fill[b] |= k_touched;
             if ((fill[b] & k_restless) != 0) fill[a] |= k_touched;
+            if (is_quiet(a)) fill[a] |= k_reached;
+            if (is_quiet(b)) fill[b] |= k_reached;
         }
         if (launch.args[0] != k_join_awake) {
             if (pushes_a) state.substeps[a] = max(state.substeps[a], substeps_of(manifold.demand));

@@ -57,12 +57,14 @@ void main()
     bool has_unweighed_hubs = counters[k_counter_hub_count] > 0u && parameters.hub_capacity == 0u;
     uint made_for = counters[k_counter_graph_due];
     bool due = (made_for != 0u && made_for != k_due_for_hubs) || has_unweighed_hubs;
-    if (launches) find_offsets(args.z == 0u && made_for != 0u);
+    bool is_new = args.z == 0u && made_for != 0u;
+    if (launches) find_offsets(is_new);
     if (args.z == 1u && due) did_not_fit |= k_fit_graph;
     if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;
     if (launches && substeps > parameters.substep_capacity) did_not_fit |= k_fit_substeps;
-    uint awake_count = counters[k_counter_manifold_count] - counters[k_counter_sleeping_manifolds];
+    uint awake_count = counters[k_counter_manifold_count]; // of a graph that lasts those that sleep are taken off already
+    if (is_new) awake_count -= counters[k_counter_sleeping_manifolds];
     if (awake_count > parameters.manifold_capacity) did_not_fit |= k_fit_manifolds;
     if (counters[k_counter_hub_manifolds] > (launches ? parameters.hub_capacity : 0u)) did_not_fit |= k_fit_hubs;
 

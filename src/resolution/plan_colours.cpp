@@ -24,7 +24,8 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     const bool has_unweighed_hubs = counters[k_counter_hub_count] > 0 && p.hub_capacity == 0;
     const uint made_for = counters[k_counter_graph_due];
     const bool due = (made_for != 0 && made_for != k_due_for_hubs) || has_unweighed_hubs;
-    if (launches && launch.args[2] == 0 && made_for != 0) find_offsets(state);
+    const bool is_new = launch.args[2] == 0 && made_for != 0;
+    if (launches && is_new) find_offsets(state);
     if (launch.args[2] == 1 && due) did_not_fit |= k_fit_graph;
     const uint colours = counters[measured ? k_counter_launched_colours : k_counter_colour_demand];
     const uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];
@@ -32,7 +33,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     if (launches && (colours > p.colour_capacity || (overflow_count > 0 && p.overflow_capacity == 0)))
         did_not_fit |= k_fit_colours;
     if (launches && substeps > p.substep_capacity) did_not_fit |= k_fit_substeps;
-    counters[k_counter_manifold_count] -= counters[k_counter_sleeping_manifolds];
+    if (is_new) counters[k_counter_manifold_count] -= counters[k_counter_sleeping_manifolds];
     if (counters[k_counter_manifold_count] > p.manifold_capacity) did_not_fit |= k_fit_manifolds;
     if (counters[k_counter_hub_manifolds] > (launches ? p.hub_capacity : 0)) did_not_fit |= k_fit_hubs;
 

@@ -2,8 +2,8 @@
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
 // Where it is to sleep it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands. args.z: 1 where something
-// bounces.
-// Reads: Counters, Poses, Velocities, Properties, Loads, Shapes, Substeps, IslandGroups, BodyColours.
+// bounces. args.w: 1 where the last step's records of bodies are there, and 2 more where parts of islands may sleep.
+// Reads: Counters, Poses, Velocities, Properties, Loads, Shapes, Substeps, IslandGroups, IslandSizes, BodyColours.
 // Writes: Inertias, Deltas, WarmStarts (and no hits behind them), ToldLoads (none yet); LaunchedBodies, in any order, and
 // Counters; Poses (flags), Velocities and Rests where a body falls asleep or wakes.
 // Needs: a barrier after find_islands, group_islands or keep_colours.
@@ -26,6 +26,7 @@ layout(std430) buffer Rests { BodyRestCells rests[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
+layout(std430) readonly buffer IslandSizes { uint island_sizes[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) writeonly buffer LaunchedBodies { uint launched_bodies[]; };
@@ -34,34 +35,49 @@ layout(std430) writeonly buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) writeonly buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 
-void main()
+// What the group's bodies add to the counters.
+shared uint sleeper_count;
+shared uint launched_count;
+shared uint first_launched;
+
+// `kept`: of a large island that it sleeps as a part of; 0 where it is of none.
+void sleep_on(uint body, BodyPose before, uint kept)
 {
-    uint body = item_index();
-    if (body >= parameters.body_count) return;
+    atomicAdd(sleeper_count, 1u);
+    bool slept = is_asleep(before);
+    bool was_in_part = (before.flags & k_body_in_part) != 0u;
+    if (!slept) velocities[body] = pack(stop(unpack(velocities[body])));
+    if (keeps_anew(kept, slept && was_in_part, counters[k_counter_pairs_changed] != 0u))
+        rests[body] = pack(with_calm(unpack(rests[body]), kept));
+    else if (!slept)
+        rests[body] = pack(with_calm(unpack(rests[body]), parameters.rest_steps));
+}
+
+// Whether it is to be among the launched bodies.
+bool prepare(uint body)
+{
+    BodyPose before = unpack(poses[body]);
+    BodyShape shape = unpack(shapes[body]);
+    uint own_substeps = substeps[body];
     if (args.z == 1u) warm_starts[hits_place(body, parameters.body_count)] = pack(no_warm_start()); // all zero, as no_hits
     told_loads[k_told_words * body + k_told_mass] = 0u;
     told_loads[k_told_words * body + k_told_height] = 0u;
-    BodyPose pose = unpack(poses[body]);
-    bool asleep = parameters.rest_steps > 0u && is_movable(unpack(shapes[body])) && substeps[body] == 0u;
-    uint flags = sleep_flags(pose.flags, asleep);
-    if (flags != pose.flags) {
-        pose.flags = flags;
-        poses[body] = pack(pose);
-        if (asleep) {
-            velocities[body] = pack(stop(unpack(velocities[body])));
-            rests[body] = pack(with_calm(unpack(rests[body]), parameters.rest_steps));
-        }
-    }
+    bool asleep = parameters.rest_steps > 0u && is_movable(shape) && own_substeps == 0u;
+    uint kept = asleep && (args.w & 2u) != 0u ? island_sizes[body] : 0u;
+    BodyPose pose = before;
+    pose.flags = flags_in_step(before, shape, asleep, kept != 0u, parameters);
+    if (pose.flags != before.flags) poses[body] = pack(pose);
+    if (asleep) sleep_on(body, before, kept);
+    if (asleep && is_asleep(before) && (args.w & 1u) != 0u) return false;
     deltas[body] = pack(no_delta());
-    uint traits = traits_of_body(unpack(shapes[body]), pose);
+    uint traits = traits_of_body(shape, pose);
     vec3 inverse_inertia = unpack(properties[body]).inverse_inertia;
     if (asleep) {
         inertias[body] = pack(inertia_asleep(pose.rotation, inverse_inertia, traits));
-        atomicAdd(counters[k_counter_sleeping_bodies], 1u);
-        return;
+        return false;
     }
     uint ticks = counters[k_counter_launched_substeps];
-    uint word = args.x == 1u ? substeps[body] : ticks;
+    uint word = args.x == 1u ? own_substeps : ticks;
     uint its_substeps = number_of_substeps(word);
     BodyInertia inertia = world_inertia(pose.rotation, inverse_inertia, traits, its_substeps);
     inertia.traits |= traits_in_graph(inertia.traits, body_colours[body_word(body, k_used_low)],
@@ -70,7 +86,23 @@ void main()
     if (is_loaded(unpack(loads[body]))) inertia.traits |= k_trait_loaded;
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
-    if (is_in_launched_bodies(inertia))
-        launched_bodies[atomicAdd(counters[k_counter_launched_bodies], 1u)] = body;
     warm_starts[body] = pack(kept_warm_start(no_warm_start(), unpack(velocities[body])));
+    return is_in_launched_bodies(inertia);
+}
+
+void main()
+{
+    bool is_first = gl_LocalInvocationID.x == 0u;
+    if (is_first) {
+        sleeper_count = 0u;
+        launched_count = 0u;
+    }
+    barrier();
+    bool launched = item_index() < parameters.body_count && prepare(item_index());
+    uint place = launched ? atomicAdd(launched_count, 1u) : 0u;
+    barrier();
+    if (is_first && sleeper_count > 0u) atomicAdd(counters[k_counter_sleeping_bodies], sleeper_count);
+    if (is_first && launched_count > 0u) first_launched = atomicAdd(counters[k_counter_launched_bodies], launched_count);
+    barrier();
+    if (launched) launched_bodies[first_launched + place] = item_index();
 }

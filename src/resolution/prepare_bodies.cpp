@@ -17,17 +17,22 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         BodyPose& pose = state.poses[body];
         const bool asleep =
             state.parameters.rest_steps > 0 && is_movable(state.shapes[body]) && state.substeps[body] == 0;
-        if (asleep && !is_asleep(pose)) {
-            state.velocities[body] = stop(state.velocities[body]);
+        const bool slept = is_asleep(pose);
+        const uint kept = asleep && (launch.args[3] & 2) != 0 ? state.island_sizes[body] : 0;
+        const bool was_in_part = (pose.flags & k_body_in_part) != 0;
+        pose.flags = flags_in_step(pose, state.shapes[body], asleep, kept != 0, state.parameters);
+        if (asleep) std::atomic_ref(state.counters[k_counter_sleeping_bodies]).fetch_add(1, std::memory_order_relaxed);
+        if (asleep && !slept) state.velocities[body] = stop(state.velocities[body]);
+        if (asleep && keeps_anew(kept, slept && was_in_part, state.counters[k_counter_pairs_changed] != 0))
+            state.rests[body] = with_calm(state.rests[body], kept);
+        else if (asleep && !slept)
             state.rests[body] = with_calm(state.rests[body], state.parameters.rest_steps);
-        }
-        pose.flags = sleep_flags(pose.flags, asleep);
+        if (asleep && slept && (launch.args[3] & 1) != 0) return;
         state.deltas[body] = no_delta();
         const uint traits = traits_of_body(state.shapes[body], pose);
         const vec3& inverse_inertia = state.properties[body].inverse_inertia;
         if (asleep) {
             state.inertias[body] = inertia_asleep(pose.rotation, inverse_inertia, traits);
-            std::atomic_ref(state.counters[k_counter_sleeping_bodies]).fetch_add(1);
             return;
         }
         const uint ticks = state.counters[k_counter_launched_substeps];

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "log.h"
 #include "primitives/primitives.h"
 #include "resolution/contact_passes.h"
 #include "state/formulas.h"
@@ -36,15 +35,20 @@ static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel
 /// those of what is awake, and those of sleepers that something awake touches.
 static void choose_who_sleeps(Device& device, const StepPlan& plan) {
     device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {k_join_to_sleep}});
-    device.run({.kernel = measure_islands, .items = plan.body_count});
-    device.run({.kernel = choose_sleepers, .items = plan.body_count, .args = {plan.multirate_from()}});
+    device.run({.kernel = measure_islands, .items = plan.body_count, .args = {1}});
+    device.run(
+        {.kernel = choose_sleepers, .items = plan.body_count, .args = {plan.least_multirate, plan.may_be_multirate()}});
     device.run({.kernel = begin_awake, .items = plan.body_count});
     device.run({.kernel = press_sleepers, .slot = k_dispatch_graph_pairs});
-    constexpr BufferId marks = BufferId::SortedManifoldKeys; // in which nothing lies before the sort
-    device.grow(marks, device.size(BufferId::ManifoldKeys));
-    device.run({.kernel = mark_awake_pairs, .slot = k_dispatch_graph_counts, .bindings = {{"Marks", marks}}});
-    exclusive_scan(device, marks, plan.pair_capacity, k_counter_graph_pairs, k_counter_listed_pairs);
-    device.run({.kernel = list_awake_pairs, .items = plan.pair_capacity, .bindings = {{"Marks", marks}}});
+    constexpr BufferId counts = BufferId::SortedManifoldKeys,
+                       bits = BufferId::SortedManifoldOrder; // nothing lies there yet
+    const std::size_t groups = (plan.pair_capacity + k_count_group - 1) / k_count_group;
+    device.grow(counts, device.size(BufferId::ManifoldKeys));
+    device.grow(bits, std::max(device.size(BufferId::ManifoldOrder), k_mark_words * groups * sizeof(uint)));
+    const std::initializer_list<Binding> marks{{"MarkCounts", counts}, {"Marks", bits}};
+    device.run({.kernel = mark_awake_pairs, .slot = k_dispatch_graph_counts, .bindings = marks});
+    exclusive_scan(device, counts, plan.pair_capacity, k_counter_graph_pairs, k_counter_listed_pairs, k_count_group);
+    device.run({.kernel = list_awake_pairs, .items = (plan.pair_capacity + 31) / 32, .bindings = marks});
 }
 
 /// The islands of a large world, and which of them a work group solves.
@@ -83,8 +87,9 @@ static void make_graph(Device& device, const StepPlan& plan) {
                      .slot = k_dispatch_graph_tiles};
     begin_sort(device, order);
     const bool measures_islands = plan.measures_islands();
-    device.run({.kernel = begin_graph, .items = std::max(plan.body_count, 1u), .args = {measures_islands}});
-    TALUS_ASSERT(!plan.sleeps_in_parts() || plan.other_graph, "who sleeps is found anew in each step");
+    device.run({.kernel = begin_graph,
+                .items = std::max(plan.body_count, 1u),
+                .args = {measures_islands, plan.sleeps_in_parts()}});
     if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan);
     device.run({.kernel = keep_colours, .slot = k_dispatch_graph_counts, .args = {plan.sleeps_in_parts()}});
     // Colours and islands are found beside each other.
@@ -120,10 +125,12 @@ static void reserve_for_solve(Device& device, const StepPlan& plan) {
 
 void prepare(Device& device, const StepPlan& plan) {
     reserve_for_solve(device, plan); // may throw, and what follows cannot be undone
-    device.begin_constraints();
+    device.place_constraints(plan.constraints_beside ? ConstraintPlace::BesideContacts
+                                                     : ConstraintPlace::OverOldContacts);
     device.run({.kernel = prepare_bodies,
                 .slot = k_dispatch_bodies,
-                .args = {plan.has_islands(), plan.has_groups(), plan.bounces}});
+                .args = {plan.has_islands(), plan.has_groups(), plan.bounces,
+                         (plan.records_last ? 1u : 0u) | (plan.sleeps_in_parts() ? 2u : 0u)}});
     run_on_near_pairs(device, plan, prepare_contacts);
 }
 

@@ -18,6 +18,12 @@ inline bool is_restless(BodyPose pose, BodyVelocity velocity, BodyShape shape, P
     return (pose.flags & k_body_frozen) == 0u && (pose.flags >> k_rest_shift) < p.rest_steps;
 }
 
+// Whether it keeps the world awake. Where nothing does, who sleeps is who slept.
+inline bool is_awake(BodyPose pose, BodyVelocity velocity, BodyShape shape, Parameters p)
+{
+    return is_movable(shape) ? !is_asleep(pose) : is_restless(pose, velocity, shape, p);
+}
+
 // Whether a body is where it was when the last step looked for contacts: it sleeps, or it stands where it is put.
 inline bool is_left_alone(BodyPose pose, BodyVelocity velocity, BodyShape shape)
 {
@@ -25,11 +31,33 @@ inline bool is_left_alone(BodyPose pose, BodyVelocity velocity, BodyShape shape)
     return (pose.flags & k_body_disturbed) == 0u && (!is_mover(shape) || is_still(velocity));
 }
 
-inline uint sleep_flags(uint flags, bool asleep) { return asleep ? flags | k_body_asleep : flags & ~k_body_asleep; }
+// Whether it was so in the step before that, too.
+inline bool is_settled(BodyPose pose) { return (pose.flags & (k_body_settled | k_body_disturbed)) == k_body_settled; }
+
+// Whether a pair has the contact that it had in the last two steps.
+inline bool are_settled(BodyPose pose_a, BodyPose pose_b)
+{
+    return is_settled(pose_a) && is_settled(pose_b) && (is_asleep(pose_a) || is_asleep(pose_b));
+}
+
+// Whether it sleeps as a part of a large island, and nothing has happened to it.
+inline bool is_quiet_part(BodyPose pose)
+{
+    return (pose.flags & (k_body_asleep | k_body_in_part | k_body_disturbed)) == (k_body_asleep | k_body_in_part);
+}
+
+// Of a body that is to sleep in this step, maybe as a part of a large island, or to be awake.
+inline uint flags_in_step(BodyPose pose, BodyShape shape, bool asleep, bool in_part, Parameters p)
+{
+    bool stands = !is_mover(shape) && (pose.flags & k_body_disturbed) == 0u;
+    bool settled = p.rest_steps > 0u && (stands || (asleep && is_asleep(pose)));
+    uint flags = pose.flags & ~(k_body_asleep | k_body_settled | k_body_in_part);
+    return flags | (asleep ? k_body_asleep : 0u) | (settled ? k_body_settled : 0u) | (in_part ? k_body_in_part : 0u);
+}
 
 // Of a body that has to begin its rest anew.
 inline uint without_rest(uint flags) { return flags & ((1u << k_rest_shift) - 1u); }
-inline uint wake_flags(uint flags) { return without_rest(flags) & ~k_body_asleep; }
+inline uint wake_flags(uint flags) { return without_rest(flags) & ~(k_body_asleep | k_body_settled | k_body_in_part); }
 
 // From where a body's way is measured.
 inline BodyRest begin_rest(BodyPose pose)
@@ -96,8 +124,8 @@ inline NextRest next_rest(BodyPose pose, BodyPose moved, BodyDelta delta, BodyRe
 // Whether nothing restless has touched a body for as long as it has to rest, if nothing does in this step.
 inline bool is_calm(BodyRest rest, Parameters p) { return rest.calm + 1u >= p.rest_steps; }
 
-// Of what falls asleep, maybe with all of its island. A sleeper that is out of balance has been calm for no steps, and so is awake in the
-// next one.
+// Of what falls asleep: for as long as it has to rest, or what is kept of a large island. A sleeper that is out of balance has been calm
+// for no steps, and so is awake in the next one.
 inline BodyRest with_calm(BodyRest rest, uint steps)
 {
     rest.calm = steps;

@@ -30,6 +30,8 @@ const uint k_body_frozen = 1u; // went non-finite; stays where it was
 const uint k_body_placed = 2u; // the caller put it there since the last step
 const uint k_body_asleep = 4u; // it sleeps
 const uint k_body_disturbed = 8u; // the caller has changed it since the last step; only while islands may sleep
+const uint k_body_settled = 16u; // it slept, or stood, when the last step looked for contacts, too; only while islands may sleep
+const uint k_body_in_part = 32u; // it sleeps as a part of a large island
 const uint k_rest_shift = 8u; // from this bit on: steps in a row in which it has rested
 
 // BodyInertia::traits
@@ -108,7 +110,10 @@ const uint k_counter_strayed = 37u;     // 1 where this step had to search, a fe
 const uint k_counter_wanted_pairs = 38u; // that the list would have with those of strays, where there is no room for them
 const uint k_counter_largest_island = 39u; // in a small world: manifolds of the island that has most
 const uint k_counter_listed_pairs = 40u; // of what the constraint graph is made where parts of islands sleep
-const uint k_counter_words = 41u;
+const uint k_counter_same_list = 41u; // 1 where the last step had the pairs of the one before
+const uint k_counter_unsettled_pairs = 42u; // whose contacts are not there from two steps ago, where that is asked
+const uint k_counter_awake = 43u; // 1 where a body is awake, or moves as its caller says; only while islands may sleep
+const uint k_counter_words = 44u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -157,7 +162,8 @@ const uint k_dispatch_graph_pairs = k_dispatch_report_ends + 1u; // groups of 64
 const uint k_dispatch_graph_tiles = k_dispatch_graph_pairs + 1u; // sort tiles of them
 const uint k_dispatch_graph_counts = k_dispatch_graph_tiles + 1u; // groups of k_count_group of them
 const uint k_dispatch_table = k_dispatch_graph_counts + 1u; // groups of 64 slots of PairTable, where pairs have to be looked up
-const uint k_dispatch_count = k_dispatch_table + 1u;
+const uint k_dispatch_unsettled_pairs = k_dispatch_table + 1u; // groups of 64 pairs
+const uint k_dispatch_count = k_dispatch_unsettled_pairs + 1u;
 
 const uint k_block_records = 32u; // see device/gl/record_blocks.h
 const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each
@@ -165,6 +171,7 @@ const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
 const uint k_count_group = 256u;  // items that one group counts: with small groups, what they add up waits for one word
+const uint k_mark_words = k_count_group / 32u; // of a bit for each of them
 // Of Arrivals, see primitives/grid_barrier.glsl.
 const uint k_arrival_words = 3u;
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side

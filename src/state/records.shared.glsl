@@ -57,7 +57,8 @@ struct BodyStart {
 // 32 bytes. Where the body was when its rest began. Kept while islands may sleep.
 struct BodyRest {
     vec3 position; // m, world
-    uint calm;     // steps since then without a touch of anything restless; up to as many as it has to rest
+    uint calm;     // steps since then without a touch of anything restless; up to as many as it has to rest. Of what sleeps as a
+                   // part of a large island what is kept of that: see resolution/island.shared.glsl
     vec4 rotation;
 };
 

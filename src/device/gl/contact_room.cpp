@@ -17,7 +17,9 @@ constexpr std::size_t aligned(std::size_t bytes) {
     return (bytes + k_alignment - 1) / k_alignment * k_alignment;
 }
 
-static_assert(element_bytes(BufferId::Constraints) % k_alignment == 0);
+// Of constraints, see record_blocks.h.
+constexpr std::size_t k_block_bytes = element_bytes(BufferId::Constraints);
+static_assert(k_block_bytes % k_alignment == 0);
 
 bool is_one_of(const auto& buffers, BufferId id) {
     return std::ranges::find(buffers, id) != buffers.end();
@@ -34,7 +36,7 @@ void ContactRoom::fit(const ContactDemand& demand) {
     for (const BufferId buffer : k_contact_buffers)
         arrays_bytes_ += aligned(demand_.pairs * bytes_a_pair(buffer));
     const std::size_t blocks = (demand_.manifolds + k_block_records - 1) / k_block_records;
-    constraint_bytes_ = blocks * element_bytes(BufferId::Constraints);
+    constraint_bytes_ = blocks * k_block_bytes;
     table_bytes_ = aligned(demand_.table_size * element_bytes(BufferId::PairTable));
 }
 
@@ -50,8 +52,11 @@ std::size_t ContactRoom::bytes() const {
 ContactRoom::Place ContactRoom::place(BufferId id) const {
     const std::size_t behind = 2 * arrays_bytes_;
     if (id == BufferId::Constraints) {
-        const bool over_start = over_old_ == starts_with_old_;
-        return {demand_.keeps_old ? behind : over_start ? 0 : arrays_bytes_, constraint_bytes_};
+        if (demand_.keeps_old) return {behind, constraint_bytes_};
+        if (constraints_ == ConstraintPlace::BesideContacts)
+            return {arrays_bytes_, gap_bytes() / k_block_bytes * k_block_bytes};
+        const bool over_start = (constraints_ == ConstraintPlace::OverOldContacts) == starts_with_old_;
+        return {over_start ? 0 : arrays_bytes_, constraint_bytes_};
     }
     if (id == BufferId::PairTable)
         return {demand_.keeps_old ? behind + constraint_bytes_ : arrays_bytes_, table_bytes_};
@@ -68,23 +73,32 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
 
 bool ContactRoom::is_covered(BufferId id) const {
     if (id == BufferId::PairTable) return true;
-    return !demand_.keeps_old && is_one_of(over_old_ ? k_old_contact_buffers : k_contact_buffers, id);
+    if (demand_.keeps_old || constraints_ == ConstraintPlace::BesideContacts) return false;
+    const bool over_old = constraints_ == ConstraintPlace::OverOldContacts;
+    return is_one_of(over_old ? k_old_contact_buffers : k_contact_buffers, id);
+}
+
+uint ContactRoom::constraints_beside() const {
+    if (demand_.keeps_old) return demand_.manifolds;
+    return static_cast<uint>(gap_bytes() / k_block_bytes * k_block_records);
 }
 
 ContactRoom ContactRoom::grown(const ContactDemand& demand) const {
     ContactRoom larger = *this;
     larger.fit(demand);
+    const bool beside = constraints_ == ConstraintPlace::BesideContacts;
+    if (beside) larger.constraints_ = ConstraintPlace::OverNewContacts; // longer contacts may make the gap shorter
     return larger;
 }
 
 bool ContactRoom::has_places_of(const ContactRoom& other) const {
     return demand_.pairs == other.demand_.pairs && demand_.keeps_old == other.demand_.keeps_old &&
-           starts_with_old_ == other.starts_with_old_ && over_old_ == other.over_old_ && bytes() == other.bytes();
+           starts_with_old_ == other.starts_with_old_ && constraints_ == other.constraints_ && bytes() == other.bytes();
 }
 
 void ContactRoom::swap() {
     starts_with_old_ = !starts_with_old_;
-    over_old_ = false;
+    if (constraints_ == ConstraintPlace::OverOldContacts) constraints_ = ConstraintPlace::OverNewContacts;
 }
 
 } // namespace talus::engine

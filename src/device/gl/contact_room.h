@@ -7,9 +7,10 @@
 // PairTable lies in the gap, which is as long as that at least: constraints are not wanted any more when the broad
 // phase begins to use it, and the table is not when they are made. The arrays at the start are the new contacts and
 // those at the end the old ones, or the other way round: swap makes the new ones old. The constraints lie over the one
-// or the other, and over the gap: in a step over the old contacts from begin_constraints on, and over the new ones from
-// its end until the next search. Where the end of a step needs the old contacts, and the table, there is no gap,
-// and the constraints and the table lie behind all of these.
+// or the other, and over the gap: in a step over the old contacts from where they are placed on, and over the new ones
+// from its end until the next search. A step that has few of them may place them into the gap alone. Where the end of a
+// step needs the old contacts, and the table, there is no gap, and the constraints and the table lie behind all of
+// these.
 //
 // This only reckons; see GlDevice for the buffer.
 #pragma once
@@ -46,13 +47,15 @@ public:
     /// Whether its content means nothing, as the constraints lie over it, or it is the table.
     bool is_covered(BufferId) const;
 
-    /// Room for at least so many, with the same arrays at the start and the same ones covered. Once the old contacts
-    /// are kept they remain so.
+    /// Room for at least so many, with the same arrays at the start and the same ones covered; constraints that lay
+    /// beside the contacts come to lie over the new ones. Once the old contacts are kept they remain so.
     ContactRoom grown(const ContactDemand&) const;
     /// Whether everything begins where it does in the other one, in a buffer as long.
     bool has_places_of(const ContactRoom&) const;
 
-    void begin_constraints() { over_old_ = true; }
+    void place_constraints(ConstraintPlace where) { constraints_ = where; }
+    /// How many lie over no contacts.
+    uint constraints_beside() const;
     void swap();
 
 private:
@@ -65,7 +68,7 @@ private:
     std::size_t table_bytes_ = 0;
 
     bool starts_with_old_ = true;
-    bool over_old_ = false; // where the constraints lie
+    ConstraintPlace constraints_ = ConstraintPlace::OverNewContacts;
 };
 
 } // namespace talus::engine

@@ -177,8 +177,12 @@ void GlDevice::reserve_contacts(const ContactDemand& demand) {
     bindings_.forget();
 }
 
-void GlDevice::begin_constraints() {
-    if (objects_->room) objects_->room->begin_constraints();
+void GlDevice::place_constraints(ConstraintPlace where) {
+    if (objects_->room) objects_->room->place_constraints(where);
+}
+
+uint GlDevice::constraints_beside() const {
+    return objects_->room ? objects_->room->constraints_beside() : k_none;
 }
 
 bool GlDevice::has_old_contacts() const {

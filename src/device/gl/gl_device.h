@@ -38,7 +38,8 @@ public:
     void read(std::span<const ReadRequest>) override;
     void swap(BufferId, BufferId) override;
     void reserve_contacts(const ContactDemand&) override;
-    void begin_constraints() override;
+    void place_constraints(ConstraintPlace) override;
+    uint constraints_beside() const override;
     bool has_old_contacts() const override;
     void swap_contacts() override;
     void set_parameters(const Parameters&) override;
