@@ -26,7 +26,7 @@ inline Polygon clip_polygon(Polygon polygon, uint axis, float sign, float limit,
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
         Corner to = corner_after(polygon, i);
         precise float distance_to = sign * component(to.position, axis) - limit;
-        bool is_there = i < polygon.count;
+        bool is_there = holds_here(i < polygon.count);
         bool inside_from = distance_from <= 0.0f;
         bool inside_to = distance_to <= 0.0f;
         bool stays = is_there && inside_from;
@@ -102,7 +102,7 @@ inline Pick no_pick(uint point)
 
 inline Pick better_pick(Pick best, Polygon polygon, uint point, uint worth, float gain)
 {
-    bool better = point < polygon.count && gain > 0.0f && (worth > best.worth || (worth == best.worth && gain > best.gain));
+    bool better = holds_here(point < polygon.count) && gain > 0.0f && (worth > best.worth || (worth == best.worth && gain > best.gain));
     best.point = choose(better, point, best.point);
     best.worth = choose(better, worth, best.worth);
     best.gain = choose(better, gain, best.gain);
@@ -136,7 +136,7 @@ inline uint reduce_points(Polygon polygon, Carriers carriers)
     uint deepest = 0u;
     float lowest = k_far_apart;
     for (uint i = 0u; any_lane(i < polygon.count); i += 1u) {
-        bool is_there = i < polygon.count;
+        bool is_there = holds_here(i < polygon.count);
         vec3 corner = corner_of(polygon, i).position;
         bool is_lower = is_there && corner.z < lowest;
         middle = choose_active(is_there, add_scaled(middle, corner, inverse_count), middle);

@@ -44,10 +44,10 @@ Corner corner_after(Polygon polygon, uint i)
     return corner_at(polygon, choose(i + 1u < polygon.count, i + 1u, 0u));
 }
 
-// What does not fit is left out: rounding may ask for a ninth.
+// What does not fit is left out: rounding may ask for a ninth. `is_wanted` holds here.
 void add_corner(inout Polygon polygon, bool is_wanted, vec3 corner, uint label)
 {
-    if (is_wanted && polygon.count < k_polygon_corners) {
+    if (polygon.count < k_polygon_corners) {
         polygon_corners[corner_place(polygon, polygon.count)] = uvec4(floatBitsToUint(corner), label);
         polygon.count += 1u;
     }

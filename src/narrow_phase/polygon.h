@@ -42,9 +42,9 @@ inline Corner corner_after(const Polygon& polygon, uint i) {
     return polygon.corners[i + 1 < polygon.count ? i + 1 : 0];
 }
 
-/// What does not fit is left out: rounding may ask for a ninth.
-inline void add_corner(Polygon& polygon, bool is_wanted, vec3 corner, uint label) {
-    if (!is_wanted || polygon.count == k_polygon_corners) return;
+/// What does not fit is left out: rounding may ask for a ninth. That it is wanted holds here.
+inline void add_corner(Polygon& polygon, bool /*is_wanted*/, vec3 corner, uint label) {
+    if (polygon.count == k_polygon_corners) return;
     polygon.corners[polygon.count++] = {corner, label};
 }
 

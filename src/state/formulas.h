@@ -6,9 +6,11 @@
 #include "state/buffers.h"
 
 // Formulas that run on several items side by side (device/cpu/lanes.h) choose by these instead of by ?: and if. For one
-// item they are the same; choose_active() stands where one item is known to fulfil the condition.
+// item they are the same; choose_active() stands where one item is known to fulfil the condition, holds_here() where it
+// need not even be asked, which GLSL is told.
 #define choose(condition, yes, no) ((condition) ? (yes) : (no))
 #define choose_active(condition, yes, no) (yes)
+#define holds_here(condition) (condition)
 #define all_lanes(condition) (condition)
 #define any_lane(condition) (condition)
 
@@ -65,5 +67,6 @@ namespace talus::engine {
 
 #undef choose
 #undef choose_active
+#undef holds_here
 #undef all_lanes
 #undef any_lane

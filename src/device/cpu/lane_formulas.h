@@ -19,6 +19,7 @@ TALUS_LANE vec3 operator*(glm::vec3 a, Lanes b) {
 #pragma GCC diagnostic ignored "-Wkeyword-macro" // what is to be done here
 #endif
 #define choose_active choose
+#define holds_here(condition) (condition)
 #define float Lanes
 #define uint ULanes
 #define bool Mask
@@ -104,6 +105,7 @@ inline NormalSweep choose(bool m, const NormalSweep& yes, const NormalSweep& no)
 #include "resolution/contact_constraint.shared.glsl"
 
 #undef choose_active
+#undef holds_here
 #undef float
 #undef uint
 #undef bool

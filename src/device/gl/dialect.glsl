@@ -10,6 +10,7 @@ uint choose(bool condition, uint yes, uint no) { return mix(no, yes, condition);
 vec3 choose(bool condition, vec3 yes, vec3 no) { return mix(no, yes, bvec3(condition)); }
 vec4 choose(bool condition, vec4 yes, vec4 no) { return mix(no, yes, bvec4(condition)); }
 #define choose_active(condition, yes, no) (yes) // where the condition is known to hold
+#define holds_here(condition) (true)              // the same, of what a loop or a branch has asked already
 #define all_lanes(condition) (condition)
 #define any_lane(condition) (condition)
 
