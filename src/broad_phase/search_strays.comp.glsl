@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An invocation has some body slots: which strays a body is near to. Of two strays the one with the higher slot finds the pair. What was
 // near already as the boxes are that the list was made of is in it, and is not found again.
-// Reads: Poses, Velocities, Shapes, Strays, Aabbs, OrientedBoxes.
+// Reads: Counters, Poses, Velocities, Shapes, Strays, StrayMarks, Aabbs, OrientedBoxes.
 // Writes: NearPairs, in any order; StrayMarks, of those that are near to somebody; Counters.
 // Needs: a barrier after find_strays.
 // Overflow: where strays have too many pairs all are searched for.
