@@ -251,18 +251,18 @@ inline float yielding_of(vec4 normal_impulse, vec4 normal_mass, float inverse_ma
 }
 
 // Impulses of the whole step, and what follows from their load. What the body above has been told: see column_height.
-inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing standing, vec4 normal_impulse,
-                                float inverse_mass_a, float inverse_mass_b, uint mass_told, uint height_told, Parameters p)
+inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing standing, vec4 normal_impulse, uint mass_told,
+                                uint height_told, Parameters p)
 {
     precise float whole = float(substeps_of_contact(c.counts));
     precise vec3 friction = c.friction_impulse * whole;
     manifold.tangent_impulse_1 = friction.x;
     manifold.tangent_impulse_2 = friction.y;
     manifold.twist_impulse = friction.z;
-    float weights = weights_on(sum4(normal_impulse), inverse_mass_a, inverse_mass_b, p);
-    uint height = column_height(standing, manifold.weights, inverse_mass_a, inverse_mass_b, mass_told, height_told, p);
+    float weights = weights_on(sum4(normal_impulse), c.inverse_mass_a, c.inverse_mass_b, p);
+    uint height = column_height(standing, manifold.weights, c.inverse_mass_a, c.inverse_mass_b, mass_told, height_told, p);
     float yielding = is_multirate(c.traits)
-                         ? yielding_of(normal_impulse, c.normal_mass, max(inverse_mass_a, inverse_mass_b))
+                         ? yielding_of(normal_impulse, c.normal_mass, max(c.inverse_mass_a, c.inverse_mass_b))
                          : 1.0f;
     return follow_load(manifold, weights, yielding, height, is_against_static(c.traits), p);
 }

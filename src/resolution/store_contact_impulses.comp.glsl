@@ -2,7 +2,7 @@
 // One invocation is a manifold in the order of colours: its impulses and its colour go back to where the next step, and
 // the caller, find them. The load on it decides how many sub-steps it asks for next.
 // args.x, args.y: the first pair that is wanted, and how many are. args.z: 1 where islands may be multirate.
-// Reads: Counters, Constraints, ManifoldKeys, ManifoldOrder, Properties, ToldLoads.
+// Reads: Counters, Constraints, ManifoldKeys, ManifoldOrder, ToldLoads.
 // Writes: PointImpulses; Manifolds (friction impulses, colour, load, sub-steps); Counters, where an island may get other
 // sub-steps.
 // Needs: a barrier after the last pass of the solver.
@@ -25,7 +25,6 @@ layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
-layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer ToldLoads { uint told_loads[]; };
 layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) writeonly buffer PointImpulses { NormalImpulsesCells point_impulses[]; };
@@ -47,9 +46,8 @@ void main()
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
     Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
     uint told = k_told_words * body_above(standing, c.body_a, c.body_b);
-    Manifold finished = finish_manifold(manifold, c, standing, impulses.normal, unpack(properties[c.body_a]).inverse_mass,
-                                        unpack(properties[c.body_b]).inverse_mass,
-                                        told_loads[told + k_told_mass], told_loads[told + k_told_height], parameters);
+    Manifold finished = finish_manifold(manifold, c, standing, impulses.normal, told_loads[told + k_told_mass],
+                                        told_loads[told + k_told_height], parameters);
     manifolds[c.manifold] = pack(finished);
     if (!asks_alike(finished.demand, manifold.demand, substeps_of_contact(c.counts), args.z == 1u))
         counters[k_counter_graph_due] = 1u; // of the next step

@@ -21,9 +21,8 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch& launch)
         const uint demand = manifold.demand;
         const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);
         const uint* const told = &state.told_loads[k_told_words * body_above(standing, c.body_a, c.body_b)];
-        manifold = finish_manifold(manifold, c, standing, impulse, state.properties[c.body_a].inverse_mass,
-                                   state.properties[c.body_b].inverse_mass, told[k_told_mass], told[k_told_height],
-                                   state.parameters);
+        manifold =
+            finish_manifold(manifold, c, standing, impulse, told[k_told_mass], told[k_told_height], state.parameters);
         // Of the next step.
         if (!asks_alike(manifold.demand, demand, substeps_of_contact(c.counts), launch.args[2] == 1))
             std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);
