@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "broad_phase/broad_phase.h"
 #include "finish/finish.h"
 #include "log.h"
 #include "parameters.h"
@@ -113,6 +114,12 @@ bool has_the_graph_of(const StepPlan& plan, const StepPlan& other) {
 uint with_headroom(uint demand, uint capacity, uint share = 4) {
     const bool comes_at_once = demand / 2 > capacity;
     return demand + demand / (!comes_at_once ? share : demand < k_large_demand ? 16 : 32);
+}
+
+/// Of small numbers a large share comes at a time, and each growth costs steps; of many it is the constraints' memory
+/// that counts, which is most of what a contact takes.
+uint share_of_manifolds(uint demand) {
+    return demand < k_large_demand ? 2 : 16;
 }
 
 } // namespace
@@ -234,9 +241,10 @@ void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
     for (const BufferId buffer : k_pair_buffers)
         grow_everywhere(buffer, pair_capacity);
     const uint table_size = std::bit_ceil(2 * pair_capacity);
-    const uint partners =
-        k_kept_partners * std::max(bodies, body_capacity); // the search keeps them in PairTable on a GPU
-    ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, partners), watches_contacts()};
+    const uint slots = std::max(bodies, body_capacity);
+    const uint partners = k_kept_partners * slots; // the search keeps them in PairTable on a GPU
+    ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, partners), boxes_of_search(slots),
+                         watches_contacts()};
     if (cpu) cpu->reserve_contacts(demand);
     if (info.kind == DeviceKind::Hybrid) { // nothing is solved, and no watch told, on the other one
         demand.manifolds = 0;
@@ -622,8 +630,8 @@ void Simulation::follow_demand(std::span<const uint> counters) {
 
 void Simulation::make_contact_room(uint pairs, uint manifolds) {
     const uint pair_room = with_headroom(pairs, plan.pair_capacity);
-    // A larger share of manifolds: it is a smaller record, and each growth costs steps.
-    const uint manifold_room = std::max(with_headroom(manifolds, plan.manifold_capacity, 2), likely_manifolds(pairs));
+    const uint manifold_room = std::max(with_headroom(manifolds, plan.manifold_capacity, share_of_manifolds(manifolds)),
+                                        likely_manifolds(pairs));
     try {
         grow_contacts(pair_room, std::min(manifold_room, std::max(pair_room, plan.pair_capacity)));
     } catch (const Error&) {
@@ -643,7 +651,7 @@ uint Simulation::likely_manifolds(uint pairs) const {
     const std::uint64_t pairs_before = report().pairs;
     if (pairs_before == 0) return 0;
     const auto likely = static_cast<uint>(std::uint64_t{solved_count} * pairs / pairs_before);
-    return with_headroom(likely, plan.manifold_capacity);
+    return with_headroom(likely, plan.manifold_capacity, share_of_manifolds(likely));
 }
 
 void Simulation::mend_velocities() {

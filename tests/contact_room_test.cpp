@@ -57,27 +57,27 @@ std::vector<ContactRoom> ways_with_few_constraints(const ContactRoom& room) {
     return all;
 }
 
-ContactRoom room_for(uint pairs, uint manifolds, bool keeps_old, uint table_size = 0) {
-    return ContactRoom({pairs, manifolds, table_size, keeps_old});
+ContactRoom room_for(uint pairs, uint manifolds, bool keeps_old, uint table_size = 0, uint boxes = 0) {
+    return ContactRoom({pairs, manifolds, table_size, boxes, keeps_old});
 }
 
-constexpr std::array<ContactDemand, 10> k_sizes{{{0, 0, 0},
-                                                 {1, 1, 2},
-                                                 {3, 0, 8},
-                                                 {3, 3, 8},
-                                                 {64, 64, 128},
-                                                 {100, 900, 256},
-                                                 {1000, 600, 2048},
-                                                 {1000, 600, 65'536},
-                                                 {1000, 1000, 2048},
-                                                 {1000, 1000, 65'536}}};
+constexpr std::array<ContactDemand, 10> k_sizes{{{0, 0, 0, 0},
+                                                 {1, 1, 2, 5},
+                                                 {3, 0, 8, 2},
+                                                 {3, 3, 8, 0},
+                                                 {64, 64, 128, 64},
+                                                 {100, 900, 256, 40},
+                                                 {1000, 600, 2048, 10'000},
+                                                 {1000, 600, 65'536, 9},
+                                                 {1000, 1000, 2048, 300},
+                                                 {1000, 1000, 65'536, 8192}}};
 
 // ---- places ----
 
 TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_constraints_over_what_is_dead) {
     for (const ContactDemand& size : k_sizes) {
         for (const bool keeps_old : {false, true}) {
-            const ContactRoom first = room_for(size.pairs, size.manifolds, keeps_old, size.table_size);
+            const ContactRoom first = room_for(size.pairs, size.manifolds, keeps_old, size.table_size, size.boxes);
             for (const ContactRoom& room : ways_with_few_constraints(first)) {
                 SCOPED_TRACE(testing::Message() << size.pairs << " pairs, " << size.manifolds << " manifolds");
                 const ContactRoom::Place constraints = room.place(BufferId::Constraints);
@@ -94,6 +94,13 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                 EXPECT_LE(table.offset + table.bytes, room.bytes());
                 EXPECT_EQ(table.offset % 256, 0u);
                 EXPECT_FALSE(keeps_old && overlap(table, constraints)) << "the end of a step reads both";
+                const ContactRoom::Place boxes = room.place(BufferId::TreeNodes);
+                EXPECT_EQ(boxes.offset, room.place(BufferId::SortedAabbs).offset) << "a search has one of the two";
+                EXPECT_GT(boxes.bytes, 0u);
+                EXPECT_GE(boxes.bytes, size.boxes * sizeof(engine::Aabb));
+                EXPECT_LE(boxes.offset + boxes.bytes, room.bytes());
+                EXPECT_EQ(boxes.offset % 256, 0u);
+                EXPECT_FALSE(overlap(boxes, table)) << "the search has both";
                 for (const BufferId id : all_contacts()) {
                     const ContactRoom::Place place = room.place(id);
                     EXPECT_EQ(place.offset % 256, 0u);
@@ -102,6 +109,7 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                     EXPECT_LE(place.offset + place.bytes, room.bytes());
                     EXPECT_TRUE(room.is_covered(id) || !overlap(place, constraints));
                     EXPECT_FALSE(overlap(place, table)) << "it is made while all contacts are there";
+                    EXPECT_FALSE(overlap(place, boxes)) << "they are, too";
                     for (const BufferId other : all_contacts())
                         EXPECT_EQ(overlap(place, room.place(other)), id == other);
                 }
@@ -135,13 +143,14 @@ TEST(ContactRooms, have_constraints_over_the_old_contacts_in_a_step_and_over_the
 TEST(ContactRooms, have_a_few_constraints_beside_the_contacts_of_two_steps) {
     ContactRoom room = room_for(1000, 600, false, 65'536);
     EXPECT_EQ(room.constraints_beside(), 65'536 * sizeof(uint) / sizeof(engine::ContactConstraint));
+    EXPECT_EQ(room_for(1000, 600, false, 65'536, 8192).constraints_beside(), 2 * room.constraints_beside());
     room.place_constraints(ConstraintPlace::BesideContacts);
     for (int step = 0; step < 2; ++step) {
         for (const BufferId id : all_contacts())
             EXPECT_FALSE(room.is_covered(id));
         room.swap();
     }
-    const ContactRoom grown = room.grown({2000, 1200, 65'536, false});
+    const ContactRoom grown = room.grown({2000, 1200, 65'536, 0, false});
     EXPECT_TRUE(grown.is_covered(BufferId::Manifolds)) << "as many as had room before have it for sure";
     EXPECT_FALSE(grown.is_covered(BufferId::OldManifolds));
     EXPECT_EQ(room_for(100, 70, true).constraints_beside(), 70u) << "all lie there";
@@ -156,45 +165,45 @@ TEST(ContactRooms, cover_nothing_where_the_old_contacts_are_kept) {
 
 TEST(ContactRooms, need_memory_for_constraints_only_where_these_are_longer_than_the_contacts_below) {
     constexpr uint pairs = 256 * 32; // whole numbers of all that places are rounded to
-    constexpr uint least_table = 256;
-    EXPECT_EQ(room_for(pairs, 0, false).bytes(), 2u * 176 * pairs + least_table);
-    EXPECT_EQ(room_for(pairs, pairs * 11 / 16, false).bytes(), 2u * 176 * pairs + least_table);
+    constexpr uint least_search = 2 * 256;
+    EXPECT_EQ(room_for(pairs, 0, false).bytes(), 2u * 176 * pairs + least_search);
+    EXPECT_EQ(room_for(pairs, pairs * 11 / 16, false).bytes(), 2u * 176 * pairs + least_search);
     EXPECT_EQ(room_for(pairs, pairs, false).bytes(), (176u + 256u) * pairs);
-    EXPECT_EQ(room_for(pairs, pairs, true).bytes(), (2u * 176u + 256u) * pairs + least_table);
-    EXPECT_EQ(room_for(pairs, pairs / 4, true).bytes(), (2u * 176u + 64u) * pairs + least_table);
+    EXPECT_EQ(room_for(pairs, pairs, true).bytes(), (2u * 176u + 256u) * pairs + least_search);
+    EXPECT_EQ(room_for(pairs, pairs / 4, true).bytes(), (2u * 176u + 64u) * pairs + least_search);
 }
 
-TEST(ContactRooms, need_memory_for_the_table_only_where_it_is_longer_than_what_constraints_need_besides) {
+TEST(ContactRooms, need_memory_for_a_search_only_where_it_is_longer_than_what_constraints_need_besides) {
     constexpr uint pairs = 256 * 32;
     const std::size_t bytes = room_for(pairs, pairs, false).bytes();
-    EXPECT_EQ(room_for(pairs, pairs, false, 4 * pairs).bytes(), bytes);
-    EXPECT_EQ(room_for(pairs, 0, false, 4 * pairs).bytes(), (2u * 176 + 16) * pairs);
-    EXPECT_EQ(room_for(pairs, pairs, true, 4 * pairs).bytes(), (2u * 176u + 256u + 16u) * pairs);
+    EXPECT_EQ(room_for(pairs, pairs, false, 4 * pairs, 2 * pairs).bytes(), bytes);
+    EXPECT_EQ(room_for(pairs, 0, false, 4 * pairs, 2 * pairs).bytes(), (2u * 176 + 16 + 64) * pairs);
+    EXPECT_EQ(room_for(pairs, pairs, true, 4 * pairs, 2 * pairs).bytes(), (2u * 176u + 256u + 16u + 64u) * pairs);
     const ContactRoom room = room_for(pairs, pairs, false);
-    EXPECT_TRUE(room.grown({pairs, pairs, 4 * pairs}).has_places_of(room));
+    EXPECT_TRUE(room.grown({pairs, pairs, 4 * pairs, 2 * pairs}).has_places_of(room));
 }
 
 TEST(ContactRooms, that_grow_have_the_same_parts_alive_and_never_shrink) {
     for (const bool keeps_old : {false, true}) {
         for (const ContactRoom& room : ways(room_for(100, 60, keeps_old))) {
-            EXPECT_TRUE(room.grown({1, 1, 0, false}).has_places_of(room));
-            EXPECT_EQ(room.grown({1, 1, 0, false}).place(BufferId::Constraints).bytes,
+            EXPECT_TRUE(room.grown({1, 1, 0, 0, false}).has_places_of(room));
+            EXPECT_EQ(room.grown({1, 1, 0, 0, false}).place(BufferId::Constraints).bytes,
                       room.place(BufferId::Constraints).bytes);
-            const ContactRoom larger = room.grown({300, 200, 0, false});
+            const ContactRoom larger = room.grown({300, 200, 0, 0, false});
             EXPECT_FALSE(larger.has_places_of(room));
             for (const BufferId id : all_contacts()) {
                 EXPECT_EQ(larger.is_covered(id), room.is_covered(id));
                 EXPECT_GT(larger.place(id).bytes, room.place(id).bytes);
             }
-            EXPECT_EQ(room.grown({1, 1, 0, true}).has_places_of(room), keeps_old);
+            EXPECT_EQ(room.grown({1, 1, 0, 0, true}).has_places_of(room), keeps_old);
         }
     }
     // Constraints that get longer over the same contacts.
     const ContactRoom room = room_for(1000, 10, false);
-    EXPECT_TRUE(room.grown({0, 600, 0, false}).has_places_of(room));
-    EXPECT_GT(room.grown({0, 600, 0, false}).place(BufferId::Constraints).bytes,
+    EXPECT_TRUE(room.grown({0, 600, 0, 0, false}).has_places_of(room));
+    EXPECT_GT(room.grown({0, 600, 0, 0, false}).place(BufferId::Constraints).bytes,
               room.place(BufferId::Constraints).bytes);
-    EXPECT_FALSE(room.grown({0, 1000, 0, false}).has_places_of(room));
+    EXPECT_FALSE(room.grown({0, 1000, 0, 0, false}).has_places_of(room));
 }
 
 // ---- content ----
@@ -245,7 +254,7 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
         device->grow(id, 2 * engine::bytes_a_pair(id));
     device->grow(BufferId::Constraints, 32 * sizeof(engine::ContactConstraint));
     write();
-    device->reserve_contacts({10, 32, 4 * 10, false});
+    device->reserve_contacts({10, 32, 4 * 10, 0, false});
     check();
     uint pairs = 10;
     for (const bool keeps_old : {false, false, true, true, false}) {
@@ -255,9 +264,9 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
             write();
             check();
             pairs *= 2;
-            device->reserve_contacts({pairs, pairs / 3, 4 * pairs, keeps_old});
+            device->reserve_contacts({pairs, pairs / 3, 4 * pairs, pairs, keeps_old});
             check();
-            device->reserve_contacts({pairs, pairs, 4 * pairs, keeps_old});
+            device->reserve_contacts({pairs, pairs, 4 * pairs, pairs, keeps_old});
             check();
         }
     }
@@ -265,13 +274,13 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
     EXPECT_GE(device->size(BufferId::ManifoldPoints), std::size_t{4} * 16 * pairs);
 }
 
-TEST_P(ContactMemory, is_kept_when_only_the_table_grows) {
+TEST_P(ContactMemory, is_kept_when_only_the_table_or_the_boxes_grow) {
     if (GetParam() != DeviceKind::Gpu) return; // the others have each buffer by itself
     for (const uint manifolds : {20u, 100u, 300u}) {
         for (const bool keeps_old : {false, true}) {
             for (const int steps : {0, 1}) {
                 const auto device = engine::make_gl_device(GlContext::Own, false);
-                ContactDemand demand{300, manifolds, 600, keeps_old};
+                ContactDemand demand{300, manifolds, 600, 150, keeps_old};
                 device->reserve_contacts(demand);
                 for (int i = 0; i < steps; ++i) {
                     device->place_constraints(ConstraintPlace::OverOldContacts);
@@ -284,11 +293,12 @@ TEST_P(ContactMemory, is_kept_when_only_the_table_grows) {
                 for (const auto& [id, bytes] : written)
                     device->write(id, 0, bytes);
                 for (int i = 0; i < 4; ++i) {
-                    demand.table_size *= 5;
+                    (i % 2 == 0 ? demand.table_size : demand.boxes) *= 5;
                     device->reserve_contacts(demand);
                     for (const auto& [id, bytes] : written)
                         expect_kept(*device, id, bytes);
                     EXPECT_GE(device->size(BufferId::PairTable), demand.table_size * sizeof(uint));
+                    EXPECT_GE(device->size(BufferId::TreeNodes), demand.boxes * sizeof(engine::Aabb));
                 }
             }
         }

@@ -32,12 +32,15 @@ static uint body_capacity(const Device& device) {
     return static_cast<uint>(device.size(BufferId::Aabbs) / sizeof(Aabb));
 }
 
-// Only worlds that use the tree have room for it, as much as for bodies.
-static void reserve_tree(Device& device) {
-    const uint capacity = body_capacity(device);
+uint boxes_of_search(uint body_capacity) {
     // Children are looked at by fours, also where the last ones are not there.
-    const std::size_t leaves = std::size_t{capacity} + k_tree_children - 1;
-    device.grow(BufferId::TreeNodes, (tree_node(0, 0, tree_top(capacity)) + leaves) * sizeof(Aabb));
+    const uint leaves = body_capacity + k_tree_children - 1;
+    return tree_node(0, 0, tree_top(body_capacity)) + leaves;
+}
+
+// Where it is no part of the room of contacts, only worlds that use the tree have room for it, as much as for bodies.
+static void reserve_tree(Device& device) {
+    device.grow(BufferId::TreeNodes, boxes_of_search(body_capacity(device)) * sizeof(Aabb));
 }
 
 // And only those that sweep, for boxes in order.

@@ -11,6 +11,10 @@ struct StepPlan;
 /// Fills Pairs, and Counters[k_counter_pair_count] with their number.
 void broad_phase(Device&, const StepPlan&);
 
+/// Room for those that a search of so many body slots puts in order, in either way: records of TreeNodes or
+/// SortedAabbs.
+uint boxes_of_search(uint body_capacity);
+
 extern const Kernel find_strays;
 extern const Kernel search_strays;
 extern const Kernel find_known_pairs;

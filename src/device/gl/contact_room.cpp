@@ -21,6 +21,10 @@ constexpr std::size_t aligned(std::size_t bytes) {
 constexpr std::size_t k_block_bytes = element_bytes(BufferId::Constraints);
 static_assert(k_block_bytes % k_alignment == 0);
 
+// One of them, as a step searches in one way.
+constexpr std::array k_boxes_of_search{BufferId::TreeNodes, BufferId::SortedAabbs};
+static_assert(element_bytes(BufferId::TreeNodes) == element_bytes(BufferId::SortedAabbs));
+
 bool is_one_of(const auto& buffers, BufferId id) {
     return std::ranges::find(buffers, id) != buffers.end();
 }
@@ -31,6 +35,7 @@ void ContactRoom::fit(const ContactDemand& demand) {
     demand_.pairs = std::max({demand.pairs, demand_.pairs, 1u});
     demand_.manifolds = std::max({demand.manifolds, demand_.manifolds, 1u});
     demand_.table_size = std::max({demand.table_size, demand_.table_size, 1u});
+    demand_.boxes = std::max({demand.boxes, demand_.boxes, 1u});
     demand_.keeps_old = demand.keeps_old || demand_.keeps_old;
     arrays_bytes_ = 0;
     for (const BufferId buffer : k_contact_buffers)
@@ -38,15 +43,16 @@ void ContactRoom::fit(const ContactDemand& demand) {
     const std::size_t blocks = (demand_.manifolds + k_block_records - 1) / k_block_records;
     constraint_bytes_ = blocks * k_block_bytes;
     table_bytes_ = aligned(demand_.table_size * element_bytes(BufferId::PairTable));
+    boxes_bytes_ = aligned(demand_.boxes * element_bytes(BufferId::TreeNodes));
 }
 
 std::size_t ContactRoom::gap_bytes() const {
     if (demand_.keeps_old) return 0;
-    return std::max(std::max(constraint_bytes_, arrays_bytes_) - arrays_bytes_, table_bytes_);
+    return std::max(std::max(constraint_bytes_, arrays_bytes_) - arrays_bytes_, search_bytes());
 }
 
 std::size_t ContactRoom::bytes() const {
-    return 2 * arrays_bytes_ + (demand_.keeps_old ? constraint_bytes_ + table_bytes_ : gap_bytes());
+    return 2 * arrays_bytes_ + (demand_.keeps_old ? constraint_bytes_ + search_bytes() : gap_bytes());
 }
 
 ContactRoom::Place ContactRoom::place(BufferId id) const {
@@ -58,8 +64,9 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
         const bool over_start = (constraints_ == ConstraintPlace::OverOldContacts) == starts_with_old_;
         return {over_start ? 0 : arrays_bytes_, constraint_bytes_};
     }
-    if (id == BufferId::PairTable)
-        return {demand_.keeps_old ? behind + constraint_bytes_ : arrays_bytes_, table_bytes_};
+    const std::size_t table_begin = demand_.keeps_old ? behind + constraint_bytes_ : arrays_bytes_;
+    if (id == BufferId::PairTable) return {table_begin, table_bytes_};
+    if (is_one_of(k_boxes_of_search, id)) return {table_begin + table_bytes_, boxes_bytes_};
     const bool is_old = is_one_of(k_old_contact_buffers, id);
     Place place{is_old == starts_with_old_ ? 0 : arrays_bytes_ + gap_bytes(), 0};
     for (const BufferId buffer : is_old ? k_old_contact_buffers : k_contact_buffers) {
@@ -72,7 +79,7 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
 }
 
 bool ContactRoom::is_covered(BufferId id) const {
-    if (id == BufferId::PairTable) return true;
+    if (id == BufferId::PairTable || is_one_of(k_boxes_of_search, id)) return true;
     if (demand_.keeps_old || constraints_ == ConstraintPlace::BesideContacts) return false;
     const bool over_old = constraints_ == ConstraintPlace::OverOldContacts;
     return is_one_of(over_old ? k_old_contact_buffers : k_contact_buffers, id);
