@@ -12,7 +12,7 @@ namespace talus::engine {
 namespace {
 
 // The largest part; many bodies take several.
-constexpr std::size_t k_part_bytes = std::size_t{1} << 20;
+constexpr std::size_t k_part_bytes = std::size_t{1} << 18;
 
 void reserve_part(Device& device, std::size_t bytes) {
     if (device.size(BufferId::Changes) < bytes) device.grow(BufferId::Changes, std::bit_ceil(bytes));

@@ -42,9 +42,8 @@ ContactRecords read_contacts(Simulation& simulation) {
     for (std::size_t i = 0; i < contacts.points.size(); ++i)
         contacts.impulses[i] = contacts.next_impulses[i / 4].normal[static_cast<int>(i % 4)];
     for (const ContactConstraint& c : constraints) {
-        const vec4 impulses = impulses_in_step(c);
         for (int i = 0; i < 4; ++i)
-            contacts.impulses[std::size_t{4} * c.manifold + static_cast<std::size_t>(i)] = impulses[i];
+            contacts.impulses[std::size_t{4} * c.manifold + static_cast<std::size_t>(i)] = c.total_impulse[i];
     }
     return contacts;
 }

@@ -45,6 +45,7 @@ struct Items {
             hits.shift = vector(i % 8 == 0 ? 0.01f : 0.0f);
             warm_starts.push_back(std::bit_cast<BodyWarmStart>(hits));
         }
+        warm_starts.resize(contact_hits_place(k_count, k_bodies), no_warm_start()); // none of the contacts has been hit
         for (uint i = 0; i < k_count; ++i)
             add_constraint(i, restitution);
         counters.resize(k_counter_words);

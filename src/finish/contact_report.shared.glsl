@@ -4,13 +4,6 @@
 // A gap of less than this does not end a contact (m): bodies that lie side by side would come and go.
 const float k_touch_slack = 0.005f;
 
-// Along the normal, in the whole step: those of all sub-steps, and of hits.
-inline vec4 impulses_in_step(ContactConstraint c)
-{
-    precise vec4 impulses = c.total_impulse + c.hit_impulse;
-    return impulses;
-}
-
 inline bool touches_at(float separation, float normal_impulse, bool touched_before)
 {
     return normal_impulse > 0.0f || separation <= (touched_before ? k_touch_slack : 0.0f);

@@ -19,6 +19,6 @@ void main()
     if (index >= counters[k_counter_manifold_count]) return;
     ContactConstraint c = unpack_ContactConstraint(constraints, index);
     ContactImpulse gathered;
-    gathered.normal_impulse = impulses_in_step(c);
+    gathered.normal_impulse = c.total_impulse;
     contact_impulses[c.manifold] = pack(gathered);
 }

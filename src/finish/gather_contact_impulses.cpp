@@ -9,7 +9,7 @@ namespace talus::engine {
 static void gather_contact_impulses_on_cpu(CpuState& state, const Launch&) {
     state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
         const ContactConstraint& c = state.constraints[index];
-        state.contact_impulses[c.manifold].normal_impulse = impulses_in_step(c);
+        state.contact_impulses[c.manifold].normal_impulse = c.total_impulse;
     });
 }
 

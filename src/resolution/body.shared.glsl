@@ -140,8 +140,11 @@ inline BodyWarmStart leave_out(BodyWarmStart kept, BodyVelocity before, BodyVelo
 
 // ---- hits ----
 
-// Where a body has them: behind the warm starts of all.
+// Where a body has them: behind the warm starts of all. Behind these are those of contacts, two in a record, as some kernels have
+// no room for another buffer.
 inline uint hits_place(uint body, uint body_count) { return body_count + body; }
+inline uint contact_hits_place(uint index, uint body_count) { return 2u * body_count + index / 2u; }
+inline bool are_first_hits(uint index) { return index % 2u == 0u; }
 
 // At the start of a sub-step, with the warm start that it begins with.
 inline BodyHits no_hits(BodyWarmStart warm)

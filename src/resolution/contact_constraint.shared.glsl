@@ -79,7 +79,6 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     c.load_speed = 0.0f;
     c.normal_impulse = no_points;
     c.total_impulse = no_points;
-    c.hit_impulse = no_points;
     return c;
 }
 
@@ -146,6 +145,13 @@ inline uint colour_of_step(uint key, uint its_traits)
 {
     uint colour = colour_of_key(key);
     return (its_traits & k_trait_whole_hub) != 0u ? colour | k_whole_hub : colour;
+}
+
+// Of the whole step, once its impulses are stored. `hits`: the sum of the step's.
+inline vec4 with_hits(vec4 total_impulse, vec4 hits)
+{
+    precise vec4 sum = total_impulse + hits;
+    return sum;
 }
 
 // ---- the load ----

@@ -28,6 +28,8 @@ BodyWarmStart load_warm_start(uint body)
 // stored_hits.glsl or no_hits.glsl
 BodyHits load_hits(uint body);
 void store_hits(uint body, BodyHits hits);
+vec4 load_contact_hits(uint index);
+void store_contact_hits(uint index, vec4 hits);
 
 bool some_bounce() { return k_bounces; }
 
@@ -138,11 +140,9 @@ void put_hit(uint body, uint its_traits, BodyVelocity before, BodyVelocity after
     groupMemoryBarrier(); // the body's own invocation reads it
 }
 
-vec4 hits_of_constraint(uint index) { return uintBitsToFloat(cell_in_block(constraints, index, 15u)); }
-
 bool can_be_hit(uint index, ManifoldState before)
 {
-    return !has_been_hit(hits_of_constraint(index)) || can_be_hit_again(before, load_hits(body_a), load_hits(body_b));
+    return !has_been_hit(load_contact_hits(index)) || can_be_hit_again(before, load_hits(body_a), load_hits(body_b));
 }
 
 vec3 falling_acceleration_of(uint body, BodyVelocity velocity)
@@ -167,7 +167,7 @@ ManifoldState pass_over_hit(uint index, float old_share)
     if (!is_finite_pair(hit.velocities)) return before;
     put_hit(body_a, traits, before.velocities.a, hit.velocities.a, hit.time);
     put_hit(body_b, traits >> k_traits_of_b, before.velocities.b, hit.velocities.b, hit.time);
-    cell_in_block(constraints, index, 15u) = floatBitsToUint(hits_of_constraint(index) + hit.impulse);
+    store_contact_hits(index, load_contact_hits(index) + hit.impulse);
     return end_hit(before, hit, old_share);
 }
 

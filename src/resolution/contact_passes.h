@@ -53,8 +53,9 @@ inline PassTarget target_of_pass(const CpuState& state, ContactPass pass, const 
 }
 
 /// Instead of the pass that has found the hit, whose result was not put back.
-inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before, ContactConstraint& c,
-                                   const ManifoldRows& rows, const PassTarget& target) {
+inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before, uint index, const ManifoldRows& rows,
+                                   const PassTarget& target) {
+    const ContactConstraint& c = state.constraints[index];
     const Substep substep =
         make_substep(substeps_of_contact(c.counts), is_against_static(c.traits), c.load_speed, state.parameters);
     const BodyDelta delta_a = shifted(state.deltas[c.body_a], hits_of(state, c.body_a).shift);
@@ -76,7 +77,7 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     };
     take(c.body_a, c.traits, before.velocities.a, hit.velocities.a);
     take(c.body_b, c.traits >> k_traits_of_b, before.velocities.b, hit.velocities.b);
-    c.hit_impulse += hit.impulse;
+    hits_of_contact(state, index) += hit.impulse;
     return end_hit(before, hit, target.old_share);
 }
 
@@ -108,10 +109,10 @@ inline void pass_over_constraint(CpuState& state, ContactPass pass, uint tick, u
         const PassTarget target = target_of_pass(state, pass, c, rows, s.impulses, slip);
         s = solve_manifold(s, rows, target);
         s.impulses.slip = slip.apart;
-        const bool is_hit = s.is_hit && (!has_been_hit(c.hit_impulse) ||
+        const bool is_hit = s.is_hit && (!has_been_hit(hits_of_contact(state, index)) ||
                                          can_be_hit_again(before, hits_of(state, c.body_a), hits_of(state, c.body_b)));
         if (is_hit && pass == ContactPass::Relax) return; // the next step's
-        if (is_hit) s = pass_over_hit(state, before, c, rows, target);
+        if (is_hit) s = pass_over_hit(state, before, index, rows, target);
         if (!is_finite_pair(s.velocities)) s = before; // what has gone wrong here is kept from the bodies
         c.friction_impulse = s.impulses.friction;
         c.slip = s.impulses.slip;

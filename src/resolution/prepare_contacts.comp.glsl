@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
-// args.x, args.y: the first pair that is wanted, and how many are.
+// args.x, args.y: the first pair that is wanted, and how many are. args.w: 1 where something may bounce.
 // Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, PointSeparations, PointImpulses,
 // BodyColours, Velocities, Inertias.
-// Writes: Constraints, ToldLoads.
+// Writes: Constraints, ToldLoads; WarmStarts, the contact's hits, where something may bounce.
 // Needs: barriers after plan_colours and prepare_bodies.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -32,10 +32,12 @@ layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) buffer ToldLoads { uint told_loads[]; };
 layout(std430) writeonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
+layout(std430) buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 layout(std430) readonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 layout(std430) readonly buffer PointSeparations { SeparationsCells point_separations[]; };
 
 #include "resolution/hub_load.glsl"
+#include "resolution/stored_contact_hits.glsl"
 
 float share_of_contact(Manifold manifold, uint pair, uint colour)
 {
@@ -112,4 +114,5 @@ void main()
     c.base_separation =
         lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, parameters);
     pack_ContactConstraint(constraints, index, c);
+    if (args.w == 1u) store_contact_hits(index, vec4(0.0));
 }

@@ -21,13 +21,13 @@ static uint manifold_key_bits(const StepPlan& plan) {
 }
 
 /// Launches a kernel whose items are manifolds in the order of colours, for some pairs after the others: for those with
-/// indices from args[0] on, args[1] of them. args[2] is 1 where islands may be multirate. `overlaps_next`: of the last
-/// of them.
+/// indices from args[0] on, args[1] of them. args[2] is 1 where islands may be multirate, args[3] where something may
+/// bounce. `overlaps_next`: of the last of them.
 static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel& kernel, bool overlaps_next = false) {
     for (uint first = 0; first < plan.pair_capacity; first += plan.near_pairs)
         device.run({.kernel = kernel,
                     .slot = k_dispatch_manifolds,
-                    .args = {first, plan.near_pairs, plan.may_be_multirate()},
+                    .args = {first, plan.near_pairs, plan.may_be_multirate(), plan.bounces},
                     .overlaps_next = overlaps_next && plan.pair_capacity - first <= plan.near_pairs});
 }
 
@@ -112,11 +112,15 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                 .args = {plan.measures_islands(), plan.needs_launches(), !plan.makes_graph}});
 }
 
-/// What only some worlds need for the solve: room for what hits have to know of bodies, behind the warm starts, and for
-/// the persistent launch's lists of a heap that may be multirate.
+/// What only some worlds need for the solve: room for what hits have to know of bodies and contacts, behind the warm
+/// starts, and for the persistent launch's lists of a heap that may be multirate.
 static void reserve_for_solve(Device& device, const StepPlan& plan) {
-    static_assert(sizeof(BodyHits) == sizeof(BodyWarmStart) && sizeof(BodyHits) == sizeof(BodyVelocity));
-    if (plan.bounces) device.grow(BufferId::WarmStarts, 2 * device.size(BufferId::Velocities));
+    static_assert(sizeof(BodyHits) == sizeof(BodyWarmStart));
+    if (plan.bounces) {
+        const auto bodies = static_cast<uint>(device.size(BufferId::Velocities) / sizeof(BodyVelocity));
+        const std::size_t records = contact_hits_place(plan.manifold_capacity, bodies) + 1;
+        device.grow(BufferId::WarmStarts, records * sizeof(BodyWarmStart));
+    }
     if (plan.persistent_groups == 0 || !plan.needs_launches() || !plan.may_be_multirate()) return;
     const uint words = fast_body_words(plan.least_substeps, plan.most_substeps);
     device.grow(BufferId::FastBodies, sizeof(uint) * words * plan.body_count);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: its impulses and its colour go back to where the next step, and
 // the caller, find them. The load on it decides how many sub-steps it asks for next.
-// args.x, args.y: the first pair that is wanted, and how many are. args.z: 1 where islands may be multirate.
-// Reads: Counters, Constraints, ManifoldKeys, ManifoldOrder, ToldLoads.
+// args.x, args.y: the first pair that is wanted, and how many are. args.z: 1 where islands may be multirate. args.w: 1 where
+// something may bounce.
+// Reads: Counters, Constraints, WarmStarts (hits), ManifoldKeys, ManifoldOrder, ToldLoads.
 // Writes: PointImpulses; Manifolds (friction impulses, colour, load, sub-steps); Counters, where an island may get other
-// sub-steps.
+// sub-steps; Constraints (total impulses), where something may bounce.
 // Needs: a barrier after the last pass of the solver.
 // Overflow: none; launched empty after a step that did not fit.
 #include "state/math.shared.glsl"
@@ -22,12 +23,15 @@
 layout(local_size_x = 64) in;
 
 layout(std430) buffer Counters { uint counters[]; };
-layout(std430) readonly buffer Constraints { ContactConstraintCellBlock constraints[]; };
+layout(std430) buffer Constraints { ContactConstraintCellBlock constraints[]; };
+layout(std430) buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) readonly buffer ToldLoads { uint told_loads[]; };
 layout(std430) buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) writeonly buffer PointImpulses { NormalImpulsesCells point_impulses[]; };
+
+#include "resolution/stored_contact_hits.glsl"
 
 void main()
 {
@@ -42,6 +46,10 @@ void main()
         impulses.normal[i] = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], substeps_of_contact(c.counts));
     }
     point_impulses[c.manifold] = pack(impulses);
+    if (args.w == 1u) {
+        vec4 whole = with_hits(c.total_impulse, load_contact_hits(index));
+        cell_in_block(constraints, index, k_total_impulse) = floatBitsToUint(whole);
+    }
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
     Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What hits have to know of bodies, for the CPU: behind the warm starts of all bodies, where CpuState::some_bounce says
-// so. The GPU's counterpart is stored_hits.glsl.
+// What hits have to know of bodies, and the hits of contacts, for the CPU: behind the warm starts of all bodies, where
+// CpuState::some_bounce says so. The GPU's counterpart is stored_hits.glsl.
 #pragma once
 
 #include <bit>
@@ -16,6 +16,12 @@ inline BodyHits hits_of(const CpuState& state, uint body) {
 
 inline void put_hits(const CpuState& state, uint body, const BodyHits& hits) {
     state.warm_starts[hits_place(body, state.parameters.body_count)] = std::bit_cast<BodyWarmStart>(hits);
+}
+
+inline vec4& hits_of_contact(const CpuState& state, uint index) {
+    static_assert(sizeof(BodyWarmStart) == 2 * sizeof(vec4));
+    BodyWarmStart& record = state.warm_starts[contact_hits_place(index, state.parameters.body_count)];
+    return reinterpret_cast<vec4*>(&record)[are_first_hits(index) ? 0 : 1];
 }
 
 } // namespace talus::engine

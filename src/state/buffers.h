@@ -77,7 +77,7 @@ namespace talus::engine {
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \
     X(WarmStarts, warm_starts, BodyWarmStart, "ffffffff", Result)                                                      \
     X(Deltas, deltas, BodyDelta, "ffffffff", Result)                                                                   \
-    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffuffffffffffffffffffffffffffffffffffffffffffff", \
+    X(Constraints, constraints, ContactConstraint, "uuuufffffffffffffffuffffffffffffffffffffffffffffffffffffffff",     \
       Result)                                                                                                          \
     X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
     X(Balances, balances, uint, "u", Scratch)                                                                          \

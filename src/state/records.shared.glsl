@@ -162,7 +162,7 @@ struct NormalImpulses {
     vec4 normal; // N s of each point, over the step; 0 where there is none
 };
 
-// 256 bytes, one a manifold, in the order of the solve: all that the solver reads of it. A vec4 holds a number for each
+// 240 bytes, one a manifold, in the order of the solve: all that the solver reads of it. A vec4 holds a number for each
 // point; see resolution/manifold_rows.shared.glsl.
 struct ContactConstraint {
     uint body_a;
@@ -190,9 +190,10 @@ struct ContactConstraint {
     vec3 slip;             // m: Slip::apart as it was when these impulses acted last (contact.shared.glsl)
     float load_speed;      // m/s: what the normal impulses of the last step do to the relative velocity
     vec4 normal_impulse; // N s, accumulated
-    vec4 total_impulse;  // N s, the sum over all sub-steps
-    vec4 hit_impulse;    // N s, the sum of the step's hits
+    vec4 total_impulse;  // N s, the sum over all sub-steps; once it is stored, with the step's hits
 };
+
+const uint k_total_impulse = 14u; // its cell
 
 // 8 bytes, one a constraint: of a list of those that may have more sub-steps than most.
 struct FastContact {

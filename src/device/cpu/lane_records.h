@@ -119,11 +119,10 @@ TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::ui
             three_of(slip),
             slip.w,
             all_of(cell(13)),
-            all_of(cell(14)),
-            all_of(cell(15))};
+            all_of(cell(14))};
 }
 static_assert(offsetof(engine::ContactConstraint, friction_impulse) == 11 * sizeof(Cell) &&
-              sizeof(engine::ContactConstraint) == 16 * sizeof(Cell));
+              sizeof(engine::ContactConstraint) == 15 * sizeof(Cell));
 
 /// Writes whole records, whose words are in order.
 TALUS_LANE void put_constraints(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
@@ -153,7 +152,6 @@ TALUS_LANE void put_constraints(const CpuState& state, const std::uint32_t* plac
     put_3(12, c.slip, c.load_speed);
     put_4(13, c.normal_impulse);
     put_4(14, c.total_impulse);
-    put_4(15, c.hit_impulse);
 }
 
 TALUS_LANE Manifold manifolds_at(const CpuState& state, const std::uint32_t* places) {

@@ -21,7 +21,7 @@ public:
     std::size_t memory_bytes() const noexcept { return buffer_.size(); }
 
 private:
-    static constexpr std::size_t k_segment_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t k_segment_bytes = std::size_t{1} << 18;
     static constexpr std::size_t k_segments = 4;
 
     GlBuffer buffer_;
@@ -44,7 +44,7 @@ public:
     std::size_t memory_bytes() const noexcept { return buffer_.size(); }
 
 private:
-    static constexpr std::size_t k_segment_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t k_segment_bytes = std::size_t{1} << 19;
 
     GlBuffer buffer_; // one segment or less, or two
 };
