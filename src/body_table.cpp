@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "state/formulas.h"
+
 namespace talus::engine {
 namespace {
 
@@ -174,6 +176,10 @@ void BodyTable::recycle() {
     resting_slots.clear();
     while (!uses.empty() && uses.back() == Use::Free)
         drop_last_slot();
+}
+
+bool BodyTable::has_loads() const {
+    return std::ranges::any_of(loaded, [&](uint slot) { return loads[slot].disturbed != 0 || is_loaded(loads[slot]); });
 }
 
 void BodyTable::forget_loads() {

@@ -98,8 +98,12 @@ void Simulation::begin_on_cpu() {
     if (!cpu) {
         std::unique_ptr<Device> host = make_cpu_device(cpu_threads, profiles);
         try {
-            for (std::size_t i = 0; i < k_buffers.size(); ++i)
-                host->grow(static_cast<BufferId>(i), gpu->size(static_cast<BufferId>(i)));
+            for (std::size_t i = 0; i < k_buffers.size(); ++i) {
+                const BufferId buffer = static_cast<BufferId>(i);
+                const bool is_of_search =
+                    buffer == BufferId::TreeNodes || buffer == BufferId::SortedAabbs; // has its own
+                if (!is_of_search) host->grow(buffer, gpu->size(buffer));
+            }
         } catch (const Error& error) {
             log(LogLevel::Info, std::string("a step waits for the GPU's kernels: ") + error.what());
             return;

@@ -47,12 +47,12 @@ constexpr uint k_large_demand = 131'072;
 constexpr uint k_demand_window = 64;
 
 constexpr std::array k_body_buffers{
-    BufferId::Poses,        BufferId::Velocities,   BufferId::Shapes,        BufferId::Properties,
-    BufferId::Loads,        BufferId::Aabbs,        BufferId::SortKeys,      BufferId::SortValues,
-    BufferId::PairCounts,   BufferId::Inertias,     BufferId::WarmStarts,    BufferId::Deltas,
-    BufferId::Islands,      BufferId::Substeps,     BufferId::Hubs,          BufferId::IslandSizes,
-    BufferId::IslandStarts, BufferId::IslandGroups, BufferId::IslandFill,    BufferId::IslandBodies,
-    BufferId::IslandPlaces, BufferId::Starts,       BufferId::OrientedBoxes, BufferId::LaunchedBodies,
+    BufferId::Poses,        BufferId::Velocities,    BufferId::Shapes,         BufferId::Properties,
+    BufferId::Aabbs,        BufferId::SortKeys,      BufferId::SortValues,     BufferId::PairCounts,
+    BufferId::Inertias,     BufferId::WarmStarts,    BufferId::Deltas,         BufferId::Islands,
+    BufferId::Substeps,     BufferId::Hubs,          BufferId::IslandSizes,    BufferId::IslandStarts,
+    BufferId::IslandGroups, BufferId::IslandFill,    BufferId::IslandBodies,   BufferId::IslandPlaces,
+    BufferId::Starts,       BufferId::OrientedBoxes, BufferId::LaunchedBodies,
 };
 
 constexpr std::array k_pair_buffers{
@@ -180,6 +180,7 @@ Simulation::Simulation(const WorldOptions& options, Devices devices)
     grow_everywhere(BufferId::HubChanges, 1);
     grow_everywhere(BufferId::Arrivals, k_arrival_words);
     reserve_rests(1);
+    grow_everywhere(BufferId::Loads, 1);
     grow_everywhere(BufferId::ColourOffsets, k_colour_offsets);
     grow_everywhere(BufferId::Strays, k_most_strays);
     grow_everywhere(BufferId::KnownPairs, k_most_stray_pairs);
@@ -218,12 +219,32 @@ void Simulation::reserve_bodies(uint count) {
     const uint capacity = std::max(count, with_headroom(body_capacity, body_capacity));
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
+    if (has_loads) grow_everywhere(BufferId::Loads, capacity);
     grow_everywhere(BufferId::SpreadSums, capacity / k_spread_group + 1);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
     grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words} * capacity);
     if (settings.sleeping) reserve_rests(capacity);
     grow_contacts(0, 0, capacity);
     body_capacity = capacity; // only now: a buffer may have no room
+}
+
+void Simulation::reserve_loads() {
+    if (has_loads) return;
+    grow_everywhere(BufferId::Loads, body_capacity);
+    has_loads = true; // only now: a buffer may have no room
+}
+
+void Simulation::take_loads(BodyChanges& changes) {
+    if (has_loads) return;
+    const auto acts = [](const RecordChanges& change) {
+        return std::ranges::any_of(change.records, [](std::byte b) { return b != std::byte{0}; });
+    };
+    const auto loads = std::ranges::find(changes, BufferId::Loads, &RecordChanges::buffer);
+    if (loads == changes.end()) return;
+    if (acts(*loads))
+        reserve_loads();
+    else
+        changes.erase(loads);
 }
 
 void Simulation::reserve_pairs(uint count) {
@@ -296,7 +317,10 @@ void Simulation::write_behind_steps(BufferId buffer, std::size_t offset, std::sp
 }
 
 void Simulation::set_settings(const Settings& wanted) {
-    if (wanted.sleeping) reserve_rests(body_capacity);
+    if (wanted.sleeping) {
+        reserve_rests(body_capacity);
+        reserve_loads(); // which say who has to wake
+    }
     if (wanted.broad_phase != settings.broad_phase) search_anew();
     begin_graph_anew();
     settings = wanted;
@@ -320,6 +344,7 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     poll();
     while (pending.size() >= k_most_pending)
         finish_oldest();
+    take_loads(changes);
     transferred.to_device += bytes_of(changes);
     Population asked = population;
     asked.waking = std::max(asked.waking, std::exchange(owed_waking, Waking::None));
@@ -336,8 +361,9 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
     newest_time = std::chrono::steady_clock::now() - before;
 }
 
-void Simulation::change_bodies(const Population& population, const BodyChanges& changes) {
+void Simulation::change_bodies(const Population& population, BodyChanges changes) {
     settle();
+    take_loads(changes);
     transferred.to_device += bytes_of(changes);
     apply_now(population, changes);
 }
@@ -380,6 +406,7 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     now.bounces = population.some_bounce;
     now.kinematic = population.some_kinematic;
     now.sleeping = settings.sleeping;
+    now.loads = has_loads;
     now.waking = settings.sleeping ? population.waking : Waking::None;
     if (may_lie_beside(population)) {
         now.constraints_beside = true;

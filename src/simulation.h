@@ -66,6 +66,10 @@ public:
         write_bytes(buffer, first * sizeof(T), std::as_bytes(elements));
     }
 
+    /// Makes room for forces and torques on bodies, which there is from the first of them on. Comes before what follows
+    /// them, so that nothing is lost where there is none.
+    void reserve_loads();
+
     /// Makes room for pairs, so that a step with no more of them fits.
     void reserve_pairs(uint count);
 
@@ -84,7 +88,7 @@ public:
     /// `changes` act before it, whatever is on its way. Needs reserve_bodies() for all slots before.
     void step(const Population&, bool with_poses, BodyChanges changes = {});
     /// Without a step, once those on their way are done.
-    void change_bodies(const Population&, const BodyChanges&);
+    void change_bodies(const Population&, BodyChanges);
     /// Waits until every step is done, and has fitted.
     void settle();
 
@@ -171,6 +175,8 @@ private:
     bool waits_on_cpu() const { return gpu && placement.detection != gpu.get(); }
 
     void grow_everywhere(BufferId, std::size_t elements);
+    /// Leaves out loads that are none as long as there is no room for any.
+    void take_loads(BodyChanges&);
     /// What only worlds need in which bodies may sleep.
     void reserve_rests(uint bodies);
     void finish_oldest();
@@ -201,6 +207,7 @@ private:
     StepPlan plan;
     uint body_capacity = 0;
     uint enqueued_slots = 0;        ///< body slots of the newest step
+    bool has_loads = false;         ///< see reserve_loads()
     std::uint32_t cpu_threads = 0;  ///< WorldOptions::threads
     bool profiles = false;          ///< WorldOptions::profile
     bool waits_for_kernels = false; ///< WorldOptions::wait_for_kernels

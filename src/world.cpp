@@ -105,6 +105,7 @@ struct World::Impl {
     /// The device gets room for all bodies, before anything that it then could not take back.
     BodyChanges take_changes() {
         simulation.reserve_bodies(table.slot_count());
+        if (table.has_loads()) simulation.reserve_loads();
         device_slots = table.slot_count();
         return table.take_changes();
     }

@@ -98,7 +98,8 @@ struct Items {
         properties.push_back(
             {inverse_inertia, inverse_mass, 1.0f, i % 4 == 0 ? 0.1f : 0.0f, 0.0f, 0.5f, 0.0f, 0, 0, 0});
         loads.push_back({vector(i % 5 == 0 ? 100.0f : 0.0f), 0, vector(i % 5 == 0 ? 10.0f : 0.0f), 0.0f});
-        const uint traits = is_static ? 0 : kind == k_kind_kinematic ? k_trait_moves : k_trait_moves | k_trait_movable;
+        const uint moved = is_static ? 0 : kind == k_kind_kinematic ? k_trait_moves : k_trait_moves | k_trait_movable;
+        const uint traits = moved | (i % 5 == 0 ? k_trait_loaded : 0u);
         inertias.push_back(world_inertia(rotation, inverse_inertia, traits, i % 7 == 6 ? 2 : 8));
         velocities.back().angular = i == 3 ? vec3(1e30f) : velocities.back().angular; // ends non-finite
         warm_starts.push_back(kept_warm_start(no_warm_start(), velocities.back()));

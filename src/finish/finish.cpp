@@ -16,8 +16,9 @@ static void report_events(Device& device, const StepPlan& plan) {
 void finish(Device& device, const StepPlan& plan) {
     if (plan.watch != ContactWatch::None) report_events(device, plan);
     if (plan.sleeps_in_parts()) device.run({.kernel = weigh_sleepers, .slot = k_dispatch_graph_pairs});
-    device.run(
-        {.kernel = finish_bodies, .slot = k_dispatch_bodies, .args = {plan.sleeps_in_parts(), plan.records_last}});
+    device.run({.kernel = finish_bodies,
+                .slot = k_dispatch_bodies,
+                .args = {plan.sleeps_in_parts(), plan.records_last, plan.loads}});
     swap_manifolds(device);
 }
 

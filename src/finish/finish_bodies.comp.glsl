@@ -3,7 +3,8 @@
 // become non-finite stays where it was and is frozen; one that sleeps is left alone, and wakes with the next step where what presses
 // on it has changed, and of that there are no sums any more. Where each was is kept for whoever asks for the step's contacts. The first
 // invocation also makes this step's pairs the last step's.
-// args.x: 1 where an island may sleep in parts. args.y: 1 where Starts holds what the last step wrote.
+// args.x: 1 where an island may sleep in parts. args.y: 1 where Starts holds what the last step wrote. args.z: 1 where bodies have
+// loads.
 // Reads: Shapes, Deltas, Counters; where an island may sleep in parts IslandFill, Balances, Properties.
 // Writes: Starts; Poses, Loads, Rests, Balances, Counters; Velocities where a body is frozen or too fast.
 // Needs: a barrier after the last pass of the solver.
@@ -69,7 +70,7 @@ void main()
     }
     bool moves = is_mover(unpack(shapes[body]));
     bool disturbed = (pose.flags & k_body_disturbed) != 0u;
-    if (moves || disturbed) loads[body] = pack(no_load());
+    if (args.z == 1u && (moves || disturbed)) loads[body] = pack(no_load());
     pose.flags &= ~k_body_disturbed;
     if (!moves || (pose.flags & k_body_frozen) != 0u) {
         if (disturbed) poses[body] = pack(pose);

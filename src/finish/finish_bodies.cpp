@@ -40,7 +40,7 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
             return;
         }
         const bool moves = is_mover(state.shapes[body]);
-        if (moves || (pose.flags & k_body_disturbed) != 0) state.loads[body] = no_load();
+        if (launch.args[2] == 1 && (moves || (pose.flags & k_body_disturbed) != 0)) state.loads[body] = no_load();
         pose.flags &= ~k_body_disturbed;
         if (!moves || (pose.flags & k_body_frozen) != 0) {
             const bool may_sleep = launch.args[0] == 1 && is_movable(state.shapes[body]); // what is frozen rests

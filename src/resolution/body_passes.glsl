@@ -5,8 +5,10 @@
 //   BodyVelocity load_settled_velocity(uint slot, uint its_traits), once all contacts of the sub-step before are passed over
 //   void store_delta(uint body, uint slot, BodyDelta delta)
 //   bool some_bounce(), whether there may be a restitution above 0, with stored_hits.glsl or no_hits.glsl
-// and it declares Properties, Loads, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
+// and it declares Properties, Inertias, WarmStarts and Counters. The CPU's counterpart is body_passes.h.
 // Reads: Properties, Loads, Inertias. Reads and writes: Poses (its flags), WarmStarts, Deltas.
+
+#include "resolution/body_load.glsl"
 
 layout(std430) buffer Poses { BodyPoseCells poses[]; };
 
@@ -15,14 +17,13 @@ layout(std430) buffer Poses { BodyPoseCells poses[]; };
 void integrate_body(uint body, uint tick)
 {
     BodyInertia inertia = unpack(inertias[body]);
-    // All at once, as loads behind a decision wait for what it is made from; but for what the caller does, as few bodies have that.
+    // All at once, as loads behind a decision wait for what it is made from; but for what the caller does.
     BodyPose pose = unpack(poses[body]);
     uint slot = slot_of(body);
     BodyDelta delta = load_delta(body, slot);
     BodyWarmStart warm = load_warm_start(body);
     BodyProperties its_properties = unpack(properties[body]);
-    BodyLoad load = no_load();
-    if ((inertia.traits & k_trait_loaded) != 0u) load = unpack(loads[body]);
+    BodyLoad load = load_of_body(body, inertia);
     uint substep = k_multirate_islands ? substep_at(tick, inertia.traits) : tick;
     bool takes_part = substep <= inertia.substeps && is_own(inertia) && (inertia.traits & k_trait_moves) != 0u;
     if (takes_part && (pose.flags & k_body_frozen) == 0u) {

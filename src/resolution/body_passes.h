@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "resolution/body_load.h"
 #include "resolution/stored_hits.h"
 #include "state/formulas.h"
 
@@ -22,7 +23,7 @@ inline void integrate_body(CpuState& state, uint body, uint tick) {
     BodyVelocity velocity = state.velocities[body];
     BodyDelta& delta = state.deltas[body];
     const BodyProperties& properties = state.properties[body];
-    const BodyLoad& load = state.loads[body];
+    const BodyLoad load = load_of_body(state, body);
     BodyWarmStart warm = state.warm_starts[body];
     if (substep > 0) {
         const BodyVelocity limited = limit_speeds(velocity, state.parameters);

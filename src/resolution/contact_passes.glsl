@@ -12,10 +12,11 @@
 // contact_passes.h.
 // Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts.
 
+#include "resolution/body_load.glsl"
+
 layout(std430) buffer Constraints { ContactConstraintCellBlock constraints[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
-layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) coherent buffer WarmStarts { BodyWarmStartCells warm_starts[]; };
 
 // A coherent block's member is no argument: NVIDIA's compiler refuses it.
@@ -148,8 +149,9 @@ bool can_be_hit(uint index, ManifoldState before)
 vec3 falling_acceleration_of(uint body, BodyVelocity velocity)
 {
     float h = substep_length(substeps, parameters);
-    return falling_acceleration(velocity, load_warm_start(body), unpack(properties[body]), unpack(inertias[body]),
-                                unpack(loads[body]), h, parameters);
+    BodyInertia inertia = unpack(inertias[body]);
+    return falling_acceleration(velocity, load_warm_start(body), unpack(properties[body]), inertia, load_of_body(body, inertia), h,
+                                parameters);
 }
 
 // Instead of the pass that has found the hit, whose result was not put back.

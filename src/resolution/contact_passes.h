@@ -2,6 +2,7 @@
 // The passes over one contact constraint, for the CPU. The GPU's counterpart is contact_passes.glsl.
 #pragma once
 
+#include "resolution/body_load.h"
 #include "resolution/stored_hits.h"
 #include "state/formulas.h"
 
@@ -63,7 +64,7 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     const float h = substep_length(substeps_of_contact(c.counts), state.parameters);
     const auto falling = [&](uint body, const BodyVelocity& velocity) {
         return falling_acceleration(velocity, state.warm_starts[body], state.properties[body], state.inertias[body],
-                                    state.loads[body], h, state.parameters);
+                                    load_of_body(state, body), h, state.parameters);
     };
     const Hit hit = solve_hit(before.velocities, rows, measure_slip(rows.meeting, c.gap, c.traits, delta_a, delta_b),
                               current_separations(rows, c.base_separation, c.traits, delta_a, delta_b),

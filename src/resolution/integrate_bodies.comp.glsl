@@ -15,7 +15,6 @@ layout(local_size_x = 64) in;
 
 layout(std430) buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
-layout(std430) readonly buffer Loads { BodyLoadCells loads[]; };
 layout(std430) readonly buffer Inertias { BodyInertiaCells inertias[]; };
 layout(std430) buffer Deltas { BodyDeltaCells deltas[]; };
 layout(std430) buffer WarmStarts { BodyWarmStartCells warm_starts[]; };

@@ -308,7 +308,8 @@ inline void take_bodies(const CpuState& state, const std::uint32_t* indices, std
     batch.h = substep_length(batch.substeps, state.parameters);
     batch.rotation = all_of(gather(state.poses.data, batch.offsets, 1));
     batch.properties = properties_at(state, batch.indices);
-    batch.load = loads_at(state, batch.indices);
+    const bool has_load = any_lane((batch.inertia.traits & k_trait_loaded) != 0u); // see load_of_body
+    batch.load = has_load ? loads_at(state, batch.indices) : no_load();
     batch.delta = deltas_at(state, batch.offsets);
 }
 

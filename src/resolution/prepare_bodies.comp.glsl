@@ -2,7 +2,8 @@
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
 // Where it is to sleep it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands. args.z: 1 where something
-// bounces. args.w: 1 where the last step's records of bodies are there, and 2 more where parts of islands may sleep.
+// bounces. args.w: 1 where the last step's records of bodies are there, 2 more where parts of islands may sleep, and 4 more where
+// bodies have loads.
 // Reads: Counters, Poses, Velocities, Properties, Loads, Shapes, Substeps, IslandGroups, IslandSizes, BodyColours.
 // Writes: Inertias, Deltas, WarmStarts (and no hits behind them), ToldLoads (none yet); LaunchedBodies, in any order, and
 // Counters; Poses (flags), Velocities and Rests where a body falls asleep or wakes.
@@ -83,7 +84,7 @@ bool prepare(uint body)
     inertia.traits |= traits_in_graph(inertia.traits, body_colours[body_word(body, k_used_low)],
                                       body_colours[body_word(body, k_used_high)], body_colours[body_word(body, k_hub_word)]);
     if (word != its_substeps) inertia.traits |= slowness_trait(ticks, its_substeps);
-    if (is_loaded(unpack(loads[body]))) inertia.traits |= k_trait_loaded;
+    if ((args.w & 4u) != 0u && is_loaded(unpack(loads[body]))) inertia.traits |= k_trait_loaded;
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
     warm_starts[body] = pack(kept_warm_start(no_warm_start(), unpack(velocities[body])));

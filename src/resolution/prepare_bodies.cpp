@@ -43,7 +43,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         state.inertias[body].traits |=
             traits_in_graph(state.inertias[body].traits, words[k_used_low], words[k_used_high], words[k_hub_word]);
         if (word != substeps) state.inertias[body].traits |= slowness_trait(ticks, substeps);
-        if (is_loaded(state.loads[body])) state.inertias[body].traits |= k_trait_loaded;
+        if ((launch.args[3] & 4) != 0 && is_loaded(state.loads[body])) state.inertias[body].traits |= k_trait_loaded;
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
             state.inertias[body].traits |= k_trait_grouped;
         if (is_in_launched_bodies(state.inertias[body])) {

@@ -134,7 +134,7 @@ void prepare(Device& device, const StepPlan& plan) {
     device.run({.kernel = prepare_bodies,
                 .slot = k_dispatch_bodies,
                 .args = {plan.has_islands(), plan.has_groups(), plan.bounces,
-                         (plan.records_last ? 1u : 0u) | (plan.sleeps_in_parts() ? 2u : 0u)}});
+                         (plan.records_last ? 1u : 0u) | (plan.sleeps_in_parts() ? 2u : 0u) | (plan.loads ? 4u : 0u)}});
     run_on_near_pairs(device, plan, prepare_contacts);
 }
 
