@@ -57,7 +57,6 @@ constexpr std::array k_body_buffers{
 
 constexpr std::array k_pair_buffers{
     BufferId::Pairs,
-    BufferId::Uncoloured,
     BufferId::ManifoldKeys,
     BufferId::ManifoldOrder,
 };

@@ -95,7 +95,9 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                 EXPECT_EQ(table.offset % 256, 0u);
                 EXPECT_FALSE(keeps_old && overlap(table, constraints)) << "the end of a step reads both";
                 const ContactRoom::Place boxes = room.place(BufferId::TreeNodes);
-                EXPECT_EQ(boxes.offset, room.place(BufferId::SortedAabbs).offset) << "a search has one of the two";
+                for (const BufferId other : engine::k_by_turns)
+                    EXPECT_EQ(room.place(other).offset, boxes.offset);
+                EXPECT_GE(room.place(BufferId::Uncoloured).bytes, size.pairs * sizeof(uint));
                 EXPECT_GT(boxes.bytes, 0u);
                 EXPECT_GE(boxes.bytes, size.boxes * sizeof(engine::Aabb));
                 EXPECT_LE(boxes.offset + boxes.bytes, room.bytes());
@@ -165,8 +167,8 @@ TEST(ContactRooms, cover_nothing_where_the_old_contacts_are_kept) {
 }
 
 TEST(ContactRooms, need_memory_for_constraints_only_where_these_are_longer_than_the_contacts_below) {
-    constexpr uint pairs = 256 * 32; // whole numbers of all that places are rounded to
-    constexpr uint least_search = 2 * 256;
+    constexpr uint pairs = 256 * 32;               // whole numbers of all that places are rounded to
+    constexpr uint least_search = 256 + 4 * pairs; // the list of pairs lies where a search has its boxes
     EXPECT_EQ(room_for(pairs, 0, false).bytes(), 2u * 176 * pairs + least_search);
     EXPECT_EQ(room_for(pairs, pairs * 2 / 3, false).bytes(), 2u * 176 * pairs + least_search);
     EXPECT_EQ(room_for(pairs, pairs, false).bytes(), (176u + 240u) * pairs);

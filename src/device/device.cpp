@@ -24,6 +24,7 @@ void Device::reserve_contacts(const ContactDemand& demand) {
             grow(buffer, demand.pairs * bytes_a_pair(buffer));
     grow(BufferId::Constraints, demand.manifolds * sizeof(ContactConstraint));
     grow(BufferId::PairTable, demand.table_size * sizeof(uint));
+    grow(BufferId::Uncoloured, demand.pairs * sizeof(uint));
 }
 
 void Device::swap_contacts() {

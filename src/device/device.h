@@ -133,13 +133,13 @@ public:
     virtual void read(std::span<const ReadRequest>) = 0;
     virtual void swap(BufferId, BufferId) = 0;
 
-    /// Gives the buffers of contacts, Constraints, PairTable, TreeNodes and SortedAabbs at least that room, where a
-    /// device has one room for all of them; elsewhere the last two wait for grow(). From then on they grow and are
-    /// swapped together, and Constraints may lie over contacts that nobody wants any more: over the old ones from
-    /// place_constraints on, and so over the new ones from swap_contacts on, until kernels write these. The last
-    /// three may lie over Constraints, so that each is there until kernels write the other; and of TreeNodes and
-    /// SortedAabbs one over the other. Constraints and contacts that they do not lie over keep their content. Old
-    /// contacts are kept for good once they are. Not while a step is on its way that may be done again.
+    /// Gives the buffers of contacts, Constraints, PairTable, Uncoloured, TreeNodes and SortedAabbs at least that room,
+    /// where a device has one room for all of them; elsewhere the last two wait for grow(). From then on they grow and
+    /// are swapped together, and Constraints may lie over contacts that nobody wants any more: over the old ones from
+    /// place_constraints on, and so over the new ones from swap_contacts on, until kernels write these. The last four
+    /// may lie over Constraints, so that each is there until kernels write the other, and the last three over each
+    /// other. Constraints and contacts that they do not lie over keep their content. Old contacts are kept for good
+    /// once they are. Not while a step is on its way that may be done again.
     virtual void reserve_contacts(const ContactDemand&);
     /// Kernels that are given from here on write Constraints. Where these lie over the old contacts, those that read
     /// them need keeps_old. Beside contacts there is room for constraints_beside() of them at most.

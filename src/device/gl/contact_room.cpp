@@ -21,8 +21,6 @@ constexpr std::size_t aligned(std::size_t bytes) {
 constexpr std::size_t k_block_bytes = element_bytes(BufferId::Constraints);
 static_assert(k_block_bytes % k_alignment == 0);
 
-// One of them, as a step searches in one way.
-constexpr std::array k_boxes_of_search{BufferId::TreeNodes, BufferId::SortedAabbs};
 static_assert(element_bytes(BufferId::TreeNodes) == element_bytes(BufferId::SortedAabbs));
 
 bool is_one_of(const auto& buffers, BufferId id) {
@@ -43,16 +41,17 @@ void ContactRoom::fit(const ContactDemand& demand) {
     const std::size_t blocks = (demand_.manifolds + k_block_records - 1) / k_block_records;
     constraint_bytes_ = blocks * k_block_bytes;
     table_bytes_ = aligned(demand_.table_size * element_bytes(BufferId::PairTable));
-    boxes_bytes_ = aligned(demand_.boxes * element_bytes(BufferId::TreeNodes));
+    turns_bytes_ = aligned(std::max(demand_.boxes * element_bytes(BufferId::TreeNodes),
+                                    demand_.pairs * element_bytes(BufferId::Uncoloured)));
 }
 
 std::size_t ContactRoom::gap_bytes() const {
     if (demand_.keeps_old) return 0;
-    return std::max(std::max(constraint_bytes_, arrays_bytes_) - arrays_bytes_, search_bytes());
+    return std::max(std::max(constraint_bytes_, arrays_bytes_) - arrays_bytes_, bytes_before());
 }
 
 std::size_t ContactRoom::bytes() const {
-    return 2 * arrays_bytes_ + (demand_.keeps_old ? constraint_bytes_ + search_bytes() : gap_bytes());
+    return 2 * arrays_bytes_ + (demand_.keeps_old ? constraint_bytes_ + bytes_before() : gap_bytes());
 }
 
 ContactRoom::Place ContactRoom::place(BufferId id) const {
@@ -66,7 +65,7 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
     }
     const std::size_t table_begin = demand_.keeps_old ? behind + constraint_bytes_ : arrays_bytes_;
     if (id == BufferId::PairTable) return {table_begin, table_bytes_};
-    if (is_one_of(k_boxes_of_search, id)) return {table_begin + table_bytes_, boxes_bytes_};
+    if (is_one_of(k_by_turns, id)) return {table_begin + table_bytes_, turns_bytes_};
     const bool is_old = is_one_of(k_old_contact_buffers, id);
     Place place{is_old == starts_with_old_ ? 0 : arrays_bytes_ + gap_bytes(), 0};
     for (const BufferId buffer : is_old ? k_old_contact_buffers : k_contact_buffers) {
@@ -79,7 +78,7 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
 }
 
 bool ContactRoom::is_covered(BufferId id) const {
-    if (id == BufferId::PairTable || is_one_of(k_boxes_of_search, id)) return true;
+    if (id == BufferId::PairTable || is_one_of(k_by_turns, id)) return true;
     if (demand_.keeps_old || constraints_ == ConstraintPlace::BesideContacts) return false;
     const bool over_old = constraints_ == ConstraintPlace::OverOldContacts;
     return is_one_of(over_old ? k_old_contact_buffers : k_contact_buffers, id);

@@ -2,15 +2,16 @@
 // Where the contacts of this step, those of the last one and the constraints lie in one OpenGL buffer, so that the
 // constraints take the memory of contacts that are not wanted any more:
 //
-//     [ four arrays ][ gap, where the constraints are longer, or PairTable and boxes ][ four arrays ]
+//     [ four arrays ][ gap, where the constraints are longer, or PairTable and by turns others ][ four arrays ]
 //
-// In the gap lie PairTable and behind it the boxes that a search has put in order, as TreeNodes or as SortedAabbs. It
-// is as long as these at least: constraints are not wanted any more when the broad phase begins to use them, and they
-// are not when constraints are made. The arrays at the start are the new contacts and those at the end the old ones, or
-// the other way round: swap makes the new ones old. The constraints lie over the one or the other, and over the gap: in
-// a step over the old contacts from where they are placed on, and over the new ones from its end until the next search.
-// A step that has few of them may place them into the gap alone. Where the end of a step needs the old contacts, and
-// the table, there is no gap, and the constraints, the table and the boxes lie behind all of these.
+// In the gap lie PairTable and behind it, by turns, the boxes that a search has put in order, as TreeNodes or as
+// SortedAabbs, and then what steps list, as Uncoloured. It is as long as these at least: constraints are not wanted any
+// more when the broad phase begins to use them, and they are not when constraints are made. The arrays at the start are
+// the new contacts and those at the end the old ones, or the other way round: swap makes the new ones old. The
+// constraints lie over the one or the other, and over the gap: in a step over the old contacts from where they are
+// placed on, and over the new ones from its end until the next search. A step that has few of them may place them into
+// the gap alone. Where the end of a step needs the old contacts, and the table, there is no gap, and the constraints,
+// the table and what is behind it lie behind all of these.
 //
 // This only reckons; see GlDevice for the buffer.
 #pragma once
@@ -19,16 +20,20 @@
 
 namespace talus::engine {
 
+/// One after the other at one place.
+inline constexpr std::array k_by_turns{BufferId::TreeNodes, BufferId::SortedAabbs, BufferId::Uncoloured};
+
 /// What lies in it.
 inline constexpr auto k_room_buffers = [] {
-    std::array<BufferId, 2 * k_contact_buffers.size() + 4> all{};
+    std::array<BufferId, 2 * k_contact_buffers.size() + 2 + k_by_turns.size()> all{};
     for (std::size_t i = 0; i < k_contact_buffers.size(); ++i) {
         all[2 * i] = k_contact_buffers[i];
         all[2 * i + 1] = k_old_contact_buffers[i];
     }
     std::size_t next = 2 * k_contact_buffers.size();
-    for (const BufferId other :
-         {BufferId::Constraints, BufferId::PairTable, BufferId::TreeNodes, BufferId::SortedAabbs})
+    for (const BufferId other : {BufferId::Constraints, BufferId::PairTable})
+        all[next++] = other;
+    for (const BufferId other : k_by_turns)
         all[next++] = other;
     return all;
 }();
@@ -46,7 +51,7 @@ public:
 
     std::size_t bytes() const;
     Place place(BufferId) const;
-    /// Whether its content means nothing, as the constraints lie over it, or it is of a search.
+    /// Whether its content means nothing, as the constraints lie over it, or it is made before them in each step.
     bool is_covered(BufferId) const;
 
     /// Room for at least so many, with the same arrays at the start and the same ones covered; constraints that lay
@@ -62,14 +67,15 @@ public:
 
 private:
     void fit(const ContactDemand&);
-    std::size_t search_bytes() const { return table_bytes_ + boxes_bytes_; }
+    /// Of all that is wanted before the constraints.
+    std::size_t bytes_before() const { return table_bytes_ + turns_bytes_; }
     std::size_t gap_bytes() const;
 
     ContactDemand demand_;         // the most so far, of each
     std::size_t arrays_bytes_ = 0; // of the new contacts, or of the old ones
     std::size_t constraint_bytes_ = 0;
     std::size_t table_bytes_ = 0;
-    std::size_t boxes_bytes_ = 0;
+    std::size_t turns_bytes_ = 0; // of what lies there by turns
 
     bool starts_with_old_ = true;
     ConstraintPlace constraints_ = ConstraintPlace::OverNewContacts;

@@ -44,7 +44,7 @@ public:
     std::size_t memory_bytes() const noexcept { return buffer_.size(); }
 
 private:
-    static constexpr std::size_t k_segment_bytes = std::size_t{1} << 19;
+    static constexpr std::size_t k_segment_bytes = std::size_t{1} << 18;
 
     GlBuffer buffer_; // one segment or less, or two
 };
