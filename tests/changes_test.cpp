@@ -117,6 +117,32 @@ TEST_P(Changes, of_a_force_add_up_also_where_the_buffers_are_looked_at_in_betwee
     EXPECT_NEAR(world.velocity(box).linear.x, 0.2f, 1e-4f);
 }
 
+TEST_P(Changes, of_forces_have_room_from_the_first_force_on) {
+    constexpr int count = 2'000;
+    World world = make_world(weightless());
+    const std::vector<BodyId> ids = world.add(scattered(count));
+    world.step(); // which all that comes new needs
+    for (const BodyId id : ids)
+        world.set_velocity(id, {{0.0f, 1.0f, 0.0f}, {}});
+    world.step();
+    const std::uint64_t before = world.memory().device;
+    const float mass = world.mass(ids.back());
+    for (int i = 1; i <= 2; ++i) {
+        world.add_force(ids.back(), {60.0f * mass, 0.0f, 0.0f});
+        world.step();
+        EXPECT_NEAR(world.velocity(ids.back()).linear.x, static_cast<float>(i), 1e-4f);
+        EXPECT_EQ(world.velocity(ids.front()).linear.x, 0.0f);
+    }
+    const std::uint64_t with_forces = world.memory().device;
+    EXPECT_GE(with_forces, before + (count - 1) * 32u) << "velocities alone have needed none";
+    EXPECT_LT(with_forces, before + 3 * count * 32u);
+    std::vector<BodyId> more = world.add(scattered(3 * count));
+    world.add_torque(more.back(), {0.0f, mass, 0.0f});
+    world.step();
+    EXPECT_NE(world.velocity(more.back()).angular.y, 0.0f) << "there is room for the bodies that have come since";
+    EXPECT_GE(world.memory().device, with_forces + 3u * count * 32u);
+}
+
 TEST_P(Changes, that_empty_a_world_give_its_slots_back) {
     World world = make_world(weightless());
     const std::vector<BodyId> ids = world.add(scattered(600));

@@ -286,9 +286,9 @@ template <typename Record> void make_infinite(EngineRun& run, engine::BufferId b
 
 void freeze_some(EngineRun& run, Cause cause) {
     if (cause == Cause::Velocity)
-        make_infinite(run, engine::BufferId::Velocities, &engine::BodyVelocity::linear);
-    else
-        make_infinite(run, engine::BufferId::Loads, &engine::BodyLoad::force);
+        return make_infinite(run, engine::BufferId::Velocities, &engine::BodyVelocity::linear);
+    run.simulation.reserve_loads();
+    make_infinite(run, engine::BufferId::Loads, &engine::BodyLoad::force);
 }
 
 TEST_P(Paths, frozen_bodies_give_the_bits_of_many_launches_in_a_persistent_one) {
