@@ -2,7 +2,7 @@
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
 // is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's. One
 // that has kept a colour far down is listed too: assign_colours sees whether it needs that, and counts it.
-// Also counts manifolds and contact points, each group its own first.
+// Also counts manifolds and contact points. Each group counts, and finds places in the list, for all of its own at once.
 // args.x: 1 where ManifoldOrder lists the pairs that the graph is made of (list_awake_pairs).
 // Reads: Manifolds, PointImpulses, Shapes; Islands, of listed pairs.
 // Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
@@ -29,11 +29,13 @@ layout(std430) buffer Counters { uint counters[]; };
 #include "resolution/hub_load.glsl"
 #include "resolution/raise_counter.glsl"
 
-// What the group's manifolds add to the counters.
+// What the group's manifolds add to the counters, and to the list.
 shared uint manifold_count;
 shared uint contact_count;
 shared uint substep_demand;
 shared uint colour_demand;
+shared uint listed_count;
+shared uint first_listed; // of the group's, its place
 
 void use_colour(uint body, uint colour)
 {
@@ -52,8 +54,10 @@ bool is_between_sleepers(Manifold manifold)
     return args.x == 1u && islands[manifold.body_a] == k_none && islands[manifold.body_b] == k_none;
 }
 
-void keep_colour(uint pair)
+// The entry to be listed; k_none: none.
+uint keep_colour(uint pair)
 {
+    uint listed = k_none;
     Manifold manifold = unpack(manifolds[pair]);
     uint colour = k_inactive_colour;
     if (is_active(manifold)) {
@@ -67,18 +71,19 @@ void keep_colour(uint pair)
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
             if (!sleeps && is_far_down(colour))
-                uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair | k_has_kept;
+                listed = pair | k_has_kept;
             else if (!sleeps)
                 atomicMax(colour_demand, colours_down_to(colour));
         } else if (!sleeps) {
             colour = floatBitsToUint(load_on(pair, manifold.point_count));
-            uncoloured[atomicAdd(counters[k_counter_uncoloured], 1u)] = pair;
+            listed = pair;
             want_colour(manifold.body_a);
             want_colour(manifold.body_b);
         }
     }
     manifold_keys[pair] = colour;
     if (args.x == 0u) manifold_order[pair] = pair;
+    return listed;
 }
 
 void main()
@@ -89,11 +94,17 @@ void main()
         contact_count = 0u;
         substep_demand = 0u;
         colour_demand = 0u;
+        listed_count = 0u;
     }
     barrier();
     uint entry = item_index();
-    if (entry < counters[k_counter_graph_pairs]) keep_colour(args.x == 1u ? manifold_order[entry] : entry);
+    uint listed = k_none;
+    if (entry < counters[k_counter_graph_pairs]) listed = keep_colour(args.x == 1u ? manifold_order[entry] : entry);
+    uint place = listed != k_none ? atomicAdd(listed_count, 1u) : 0u;
     barrier();
+    if (is_first && listed_count > 0u) first_listed = atomicAdd(counters[k_counter_uncoloured], listed_count);
+    barrier();
+    if (listed != k_none) uncoloured[first_listed + place] = listed;
     if (!is_first || manifold_count == 0u) return;
     atomicAdd(counters[k_counter_manifold_count], manifold_count);
     atomicAdd(counters[k_counter_contact_count], contact_count);
