@@ -44,7 +44,7 @@ public:
     void recycle();
     /// To be called once a step has begun: it uses up the loads that it was given.
     void forget_loads();
-    /// Whether the caller does something to a body in the next step.
+    /// Whether a body has a force, a torque or a reason to wake in the next step.
     bool has_loads() const;
 
     /// Up to the last slot in use.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Where steps are made. The CPU makes the first ones of a world on a GPU, with the same bits, while the GPU's driver
 // compiles the kernels that no step can do without.
+#include <algorithm>
+
 #include "device/cpu/cpu_threads.h"
 #include "device/kernel_list.h"
 #include "hand_over.h"
@@ -100,10 +102,10 @@ void Simulation::begin_on_cpu() {
         try {
             for (std::size_t i = 0; i < k_buffers.size(); ++i) {
                 const BufferId buffer = static_cast<BufferId>(i);
-                const bool is_of_search =
-                    buffer == BufferId::TreeNodes || buffer == BufferId::SortedAabbs; // has its own
-                if (!is_of_search) host->grow(buffer, gpu->size(buffer));
+                const bool shares_a_place = std::ranges::find(k_by_turns, buffer) != k_by_turns.end();
+                if (!shares_a_place) host->grow(buffer, gpu->size(buffer));
             }
+            host->grow(BufferId::Uncoloured, plan.pair_capacity * sizeof(uint));
         } catch (const Error& error) {
             log(LogLevel::Info, std::string("a step waits for the GPU's kernels: ") + error.what());
             return;

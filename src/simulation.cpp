@@ -115,8 +115,7 @@ uint with_headroom(uint demand, uint capacity, uint share = 4) {
     return demand + demand / (!comes_at_once ? share : demand < k_large_demand ? 16 : 32);
 }
 
-/// Of small numbers a large share comes at a time, and each growth costs steps; of many it is the constraints' memory
-/// that counts, which is most of what a contact takes.
+/// Of small numbers a large share comes at a time, and each growth costs a step; of many it is the memory that counts.
 uint share_of_manifolds(uint demand) {
     return demand < k_large_demand ? 2 : 16;
 }
@@ -216,6 +215,7 @@ void Simulation::reserve_bodies(uint count) {
     if (count <= body_capacity) return;
     settle(); // contacts move, and where they lie may be another half once a step on its way is done again
     const uint capacity = std::max(count, with_headroom(body_capacity, body_capacity));
+    grow_contacts(0, 0, capacity); // first: what is searched for has to have room for all bodies that others have
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
     if (has_loads) grow_everywhere(BufferId::Loads, capacity);
@@ -223,7 +223,6 @@ void Simulation::reserve_bodies(uint count) {
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
     grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words} * capacity);
     if (settings.sleeping) reserve_rests(capacity);
-    grow_contacts(0, 0, capacity);
     body_capacity = capacity; // only now: a buffer may have no room
 }
 
@@ -233,17 +232,19 @@ void Simulation::reserve_loads() {
     has_loads = true; // only now: a buffer may have no room
 }
 
-void Simulation::take_loads(BodyChanges& changes) {
+void Simulation::reserve_hits() {
+    if (has_hits) return;
+    grow_everywhere(BufferId::WarmStarts, records_with_hits(body_capacity, plan.manifold_capacity));
+    has_hits = true;
+}
+
+void Simulation::leave_out_no_loads(BodyChanges& changes) const {
     if (has_loads) return;
-    const auto acts = [](const RecordChanges& change) {
-        return std::ranges::any_of(change.records, [](std::byte b) { return b != std::byte{0}; });
-    };
     const auto loads = std::ranges::find(changes, BufferId::Loads, &RecordChanges::buffer);
     if (loads == changes.end()) return;
-    if (acts(*loads))
-        reserve_loads();
-    else
-        changes.erase(loads);
+    TALUS_ASSERT(std::ranges::all_of(loads->records, [](std::byte b) { return b == std::byte{0}; }),
+                 "a load was given for which no room had been made");
+    changes.erase(loads);
 }
 
 void Simulation::reserve_pairs(uint count) {
@@ -260,8 +261,9 @@ void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
     const uint manifold_capacity = std::max(manifolds, plan.manifold_capacity);
     for (const BufferId buffer : k_pair_buffers)
         grow_everywhere(buffer, pair_capacity);
-    const uint table_size = std::bit_ceil(2 * pair_capacity);
     const uint slots = std::max(bodies, body_capacity);
+    if (has_hits) grow_everywhere(BufferId::WarmStarts, records_with_hits(slots, manifold_capacity));
+    const uint table_size = std::bit_ceil(2 * pair_capacity);
     const uint partners = k_kept_partners * slots; // the search keeps them in PairTable on a GPU
     ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, partners), boxes_of_search(slots),
                          watches_contacts()};
@@ -340,18 +342,19 @@ void Simulation::search_anew() {
 }
 
 void Simulation::step(const Population& population, bool with_poses, BodyChanges changes) {
-    poll();
-    while (pending.size() >= k_most_pending)
-        finish_oldest();
-    take_loads(changes);
+    leave_out_no_loads(changes);
     transferred.to_device += bytes_of(changes);
     Population asked = population;
-    asked.waking = std::max(asked.waking, std::exchange(owed_waking, Waking::None));
     try {
+        poll();
+        while (pending.size() >= k_most_pending)
+            finish_oldest();
+        asked.waking = std::max(asked.waking, std::exchange(owed_waking, Waking::None));
+        if (asked.some_bounce) reserve_hits();
         choose_placement(asked);
     } catch (const Error&) {
-        // A kernel is faulty, or the GPU has no room: what the caller has changed is not to be lost.
-        owed_waking = asked.waking;
+        // A kernel is faulty, or there is no room: what the caller has changed is not to be lost.
+        owed_waking = std::max(owed_waking, asked.waking);
         apply_now(asked, changes);
         throw;
     }
@@ -361,9 +364,14 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
 }
 
 void Simulation::change_bodies(const Population& population, BodyChanges changes) {
-    settle();
-    take_loads(changes);
+    leave_out_no_loads(changes);
     transferred.to_device += bytes_of(changes);
+    try {
+        settle();
+    } catch (const Error&) {
+        apply_now(population, changes);
+        throw;
+    }
     apply_now(population, changes);
 }
 
@@ -765,8 +773,21 @@ void Simulation::redo(std::span<const uint> counters) {
         search_anew(); // pairs and boxes may be of a search that came to nothing
         throw;
     }
-    for (Pending& entry : again)
-        enqueue(std::move(entry));
+    while (!again.empty()) {
+        Pending entry = std::move(again.front());
+        again.pop_front();
+        try {
+            enqueue(std::move(entry));
+        } catch (const Error&) { // nor is what the caller has changed before the others lost
+            settle();
+            for (const Pending& other : again) {
+                apply_now(other.population, other.changes);
+                owed_waking = std::max(owed_waking, other.population.waking);
+            }
+            search_anew();
+            throw;
+        }
+    }
 }
 
 std::span<const BodyPose> Simulation::newest_poses() const {

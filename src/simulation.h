@@ -66,8 +66,8 @@ public:
         write_bytes(buffer, first * sizeof(T), std::as_bytes(elements));
     }
 
-    /// Makes room for forces and torques on bodies, which there is from the first of them on. Comes before what follows
-    /// them, so that nothing is lost where there is none.
+    /// Makes room for loads on bodies, as forces, before the first change that has one. There is none until then, but
+    /// where bodies may sleep: loads also say who has to wake. Throws Error where there is no memory.
     void reserve_loads();
 
     /// Makes room for pairs, so that a step with no more of them fits.
@@ -175,8 +175,10 @@ private:
     bool waits_on_cpu() const { return gpu && placement.detection != gpu.get(); }
 
     void grow_everywhere(BufferId, std::size_t elements);
-    /// Leaves out loads that are none as long as there is no room for any.
-    void take_loads(BodyChanges&);
+    /// As long as there is no room for any: those of new bodies.
+    void leave_out_no_loads(BodyChanges&) const;
+    /// Makes room for what hits have to know of bodies and contacts, from the first body on that may bounce.
+    void reserve_hits();
     /// What only worlds need in which bodies may sleep.
     void reserve_rests(uint bodies);
     void finish_oldest();
@@ -208,6 +210,7 @@ private:
     uint body_capacity = 0;
     uint enqueued_slots = 0;        ///< body slots of the newest step
     bool has_loads = false;         ///< see reserve_loads()
+    bool has_hits = false;          ///< see reserve_hits()
     std::uint32_t cpu_threads = 0;  ///< WorldOptions::threads
     bool profiles = false;          ///< WorldOptions::profile
     bool waits_for_kernels = false; ///< WorldOptions::wait_for_kernels

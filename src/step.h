@@ -62,7 +62,7 @@ struct StepPlan {
     bool bounces = false;   ///< some body has a restitution above 0
     bool kinematic = false; ///< some body moves as its caller says, whatever it touches
     bool sleeping = false;  ///< islands may sleep
-    bool loads = false;     ///< there is room for what the caller does to bodies, as one has had a force or a torque
+    bool loads = false;     ///< there is room for loads on bodies; else none has one
     Waking waking = Waking::None;
     ContactWatch watch = ContactWatch::None;
     uint report_room = k_none; ///< contact events that leave with the step

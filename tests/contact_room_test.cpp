@@ -402,17 +402,26 @@ TEST_P(ContactMemory, may_be_more_than_one_block_of_a_kernel) {
 
 // ---- steps that come to nothing ----
 
+constexpr ContactDemand k_boundless{engine::k_none, engine::k_none, 0, engine::k_none};
+
 /// A device that has no room, or cannot have a kernel, where a test says so.
 class PoorDevice final : public StandInDevice {
 public:
     using StandInDevice::StandInDevice;
 
-    ContactDemand most{engine::k_none, engine::k_none}; // that there is room for
+    ContactDemand most = k_boundless; // that there is room for
     uint largest_table = engine::k_none;
+    std::set<BufferId> full; // that cannot grow
     const engine::Kernel* faulty = nullptr;
 
+    void grow(BufferId buffer, std::size_t bytes) override {
+        if (bytes > size(buffer) && full.contains(buffer)) throw Error("no room");
+        StandInDevice::grow(buffer, bytes);
+    }
+
     void reserve_contacts(const ContactDemand& demand) override {
-        if (demand.pairs > most.pairs || demand.manifolds > most.manifolds || demand.table_size > largest_table)
+        if (demand.pairs > most.pairs || demand.manifolds > most.manifolds || demand.table_size > largest_table ||
+            demand.boxes > most.boxes)
             throw Error("no room");
         StandInDevice::reserve_contacts(demand);
     }
@@ -430,7 +439,9 @@ std::vector<BodyDefinition> tower() {
 }
 
 struct PoorRun {
-    PoorRun(DeviceKind kind, bool with_room) {
+    PoorRun(DeviceKind kind, bool with_room) : PoorRun(kind, with_room, tower(), {}) {}
+
+    PoorRun(DeviceKind kind, bool with_room, const std::vector<BodyDefinition>& bodies, const Settings& settings) {
         WorldOptions options = options_on(kind);
         options.capacities.pairs = with_room ? 4096 : 8;
         engine::Devices devices = engine::make_devices(options);
@@ -438,7 +449,7 @@ struct PoorRun {
         auto poor = std::make_unique<PoorDevice>(std::move(last));
         device = poor.get();
         last = std::move(poor);
-        run = std::make_unique<EngineRun>(options, std::move(devices), tower());
+        run = std::make_unique<EngineRun>(options, std::move(devices), bodies, settings);
     }
 
     /// Boxes beside the tower, so that there is no room for all pairs.
@@ -465,9 +476,82 @@ struct PoorRun {
     PoorDevice* device = nullptr; // the run's
 };
 
+std::vector<BodyDefinition> row_of_boxes(int count, float z, float restitution) {
+    std::vector<BodyDefinition> bodies;
+    for (int i = 0; i < count; ++i)
+        bodies.push_back(with_material(box_at({1.5f * static_cast<float>(i) - 20.0f, 0.5f, z}), 0.5f, restitution));
+    return bodies;
+}
+
+TEST_P(ContactMemory, lets_a_world_go_on_that_found_no_room_for_more_bodies) {
+    for (const BroadPhase broad_phase : {BroadPhase::Bvh, BroadPhase::SweepAndPrune}) {
+        Settings settings;
+        settings.broad_phase = broad_phase;
+        PoorRun poor(GetParam(), true, tower(), settings), rich(GetParam(), true, tower(), settings);
+        for (PoorRun* each : {&poor, &rich})
+            each->run->step(2);
+        poor.device->most.boxes = 1;
+        EXPECT_THROW(poor.run->simulation.reserve_bodies(5'000), Error);
+        poor.device->most.boxes = engine::k_none;
+        for (PoorRun* each : {&poor, &rich}) {
+            each->run->simulation.search_anew();
+            each->run->step(2);
+        }
+        EXPECT_TRUE(poor.run->motion() == rich.run->motion());
+    }
+}
+
+TEST_P(ContactMemory, leaves_a_world_alone_that_has_no_room_for_what_a_snapshot_says_of_sleep) {
+    Settings sleeping;
+    sleeping.sleeping = true;
+    PoorRun from(GetParam(), true, tower(), sleeping);
+    from.run->step(5);
+    const engine::SavedState saved = save_state(from.run->simulation, from.run->table, from.run->settings);
+    PoorRun poor(GetParam(), true);
+    poor.run->step(3);
+    const std::size_t manifolds = read_contacts(poor.run->simulation).manifolds.size();
+    const std::vector<float> motion = poor.run->motion();
+    poor.device->full = {BufferId::Loads};
+    EXPECT_THROW(poor.run->simulation.restore(saved), Error);
+    EXPECT_EQ(poor.run->simulation.report().step, 3u);
+    EXPECT_EQ(read_contacts(poor.run->simulation).manifolds.size(), manifolds);
+    EXPECT_TRUE(poor.run->motion() == motion);
+}
+
+TEST_P(ContactMemory, loses_no_body_of_the_steps_behind_one_that_has_no_room_for_hits) {
+    std::vector<BodyDefinition> bodies = row_of_boxes(5, 0.0f, 0.5f);
+    bodies.push_back(ground());
+    PoorRun poor(GetParam(), false, bodies, {});
+    poor.run->step(3);
+    engine::Simulation& simulation = poor.run->simulation;
+    engine::BodyTable& table = poor.run->table;
+    static_cast<void>(table.take_changes()); // of those that are there
+    simulation.reserve_bodies(64);
+    poor.device->full = {BufferId::WarmStarts};
+    const auto step_with_more = [&](int count, float z) {
+        for (const BodyDefinition& body : row_of_boxes(count, z, 0.5f))
+            table.add(body);
+        simulation.step(table.population(), false, table.take_changes());
+    };
+    EXPECT_THROW(
+        {
+            step_with_more(40, 5.0f); // more contacts than there is room for
+            step_with_more(5, 9.0f);  // is on its way when that is seen
+            simulation.settle();
+        },
+        Error);
+    poor.device->full.clear();
+    simulation.step(table.population(), false, table.take_changes());
+    simulation.settle();
+    const auto poses = poor.run->read<engine::BodyPose>(BufferId::Poses, table.slot_count());
+    for (uint i = 0; i < table.slot_count(); ++i)
+        EXPECT_NEAR(poses[i].position.z, table.poses[i].position.z, 0.1f) << i;
+}
+
 TEST_P(ContactMemory, is_as_it_was_after_a_step_for_which_there_is_no_room) {
-    const std::map<const char*, ContactDemand> lacks{{"pairs", {8, 8}}, // known before contacts are found, or behind it
-                                                     {"manifolds", {engine::k_none, 8}}};
+    const std::map<const char*, ContactDemand> lacks{
+        {"pairs", {8, 8, 0, engine::k_none}}, // known before contacts are found, or behind it
+        {"manifolds", {engine::k_none, 8, 0, engine::k_none}}};
     for (const auto& [what, most] : lacks) {
         SCOPED_TRACE(what);
         PoorRun poor(GetParam(), false), rich(GetParam(), true);
@@ -492,7 +576,7 @@ TEST_P(ContactMemory, is_as_it_was_after_a_step_for_which_there_is_no_room) {
                 EXPECT_EQ(impulse, now.impulses[4 * i + static_cast<std::size_t>(k)]) << "of constraints that are lost";
             }
         }
-        poor.device->most = {engine::k_none, engine::k_none};
+        poor.device->most = k_boundless;
         poor.run->step(3);
         rich.run->step(3);
         EXPECT_TRUE(poor.run->motion() == rich.run->motion()) << "impulses that a step starts from have been kept";

@@ -70,6 +70,7 @@ struct TableRun : EngineRun {
 
     void step(bool with_poses = false) {
         simulation.reserve_bodies(table.slot_count());
+        if (table.has_loads()) simulation.reserve_loads();
         engine::Population population = table.population();
         population.waking = table.take_waking();
         simulation.step(population, with_poses, table.take_changes());
@@ -289,6 +290,7 @@ TEST_P(FirstSteps, are_saved_and_changed_as_others_are) {
         run->step();
         run->table.loads[5].force = {0.0f, 40.0f, 10.0f}; // for the step behind the change of device
         run->table.mark(5, engine::k_dirty_load);
+        run->simulation.reserve_loads();
         run->simulation.change_bodies(run->table.population(), run->table.take_changes()); // as before drawing
     }
     const engine::SavedState saved = slow.save();

@@ -49,7 +49,10 @@ inline constexpr std::array k_contact_buffers{BufferId::Manifolds, BufferId::Man
 inline constexpr std::array k_old_contact_buffers{BufferId::OldManifolds, BufferId::OldManifoldPoints,
                                                   BufferId::OldPointSeparations, BufferId::OldPointImpulses};
 
-/// Of one of these.
+/// What a step makes one after the other before it has constraints, so that it may all lie at one place.
+inline constexpr std::array k_by_turns{BufferId::TreeNodes, BufferId::SortedAabbs, BufferId::Uncoloured};
+
+/// Of one of the contacts' buffers.
 constexpr std::size_t bytes_a_pair(BufferId id) {
     const bool has_points = id == BufferId::ManifoldPoints || id == BufferId::OldManifoldPoints;
     return (has_points ? 4 : 1) * k_buffers[static_cast<std::size_t>(id)].stride;

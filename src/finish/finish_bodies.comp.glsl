@@ -3,8 +3,8 @@
 // become non-finite stays where it was and is frozen; one that sleeps is left alone, and wakes with the next step where what presses
 // on it has changed, and of that there are no sums any more. Where each was is kept for whoever asks for the step's contacts. The first
 // invocation also makes this step's pairs the last step's.
-// args.x: 1 where an island may sleep in parts. args.y: 1 where Starts holds what the last step wrote. args.z: 1 where bodies have
-// loads.
+// args.x: 1 where an island may sleep in parts. args.y: 1 where Starts holds what the last step wrote. args.z: 1 where there is
+// room for loads.
 // Reads: Shapes, Deltas, Counters; where an island may sleep in parts IslandFill, Balances, Properties.
 // Writes: Starts; Poses, Loads, Rests, Balances, Counters; Velocities where a body is frozen or too fast.
 // Needs: a barrier after the last pass of the solver.

@@ -83,10 +83,10 @@ void take_constraint(uint index, bool of_hub)
 // In the last cells of the record: see ContactConstraint.
 void put_back_impulses(uint index)
 {
-    cell_in_block(constraints, index, 11u).xyz = floatBitsToUint(impulses.friction); // beside hub_share
-    cell_in_block(constraints, index, 12u) = uvec4(floatBitsToUint(impulses.slip), floatBitsToUint(load_speed));
-    cell_in_block(constraints, index, 13u) = floatBitsToUint(impulses.normal);
-    cell_in_block(constraints, index, 14u) = floatBitsToUint(impulses.total);
+    cell_in_block(constraints, index, k_first_changing).xyz = floatBitsToUint(impulses.friction); // beside hub_share
+    cell_in_block(constraints, index, k_first_changing + 1u) = uvec4(floatBitsToUint(impulses.slip), floatBitsToUint(load_speed));
+    cell_in_block(constraints, index, k_first_changing + 2u) = floatBitsToUint(impulses.normal);
+    cell_in_block(constraints, index, k_first_changing + 3u) = floatBitsToUint(impulses.total);
 }
 
 // What the contact in hand needs to know of its sub-steps, with such a load. Defined behind this file, by solve_substeps.glsl or

@@ -78,7 +78,7 @@ inline ManifoldState pass_over_hit(CpuState& state, const ManifoldState& before,
     };
     take(c.body_a, c.traits, before.velocities.a, hit.velocities.a);
     take(c.body_b, c.traits >> k_traits_of_b, before.velocities.b, hit.velocities.b);
-    hits_of_contact(state, index) += hit.impulse;
+    put_contact_hits(state, index, hits_of_contact(state, index) + hit.impulse);
     return end_hit(before, hit, target.old_share);
 }
 

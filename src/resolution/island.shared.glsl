@@ -90,6 +90,11 @@ inline uint keep_island(IslandAtRest island, uint size, uint own_substeps, uint 
            ((island.multirate ? own_substeps : substeps) << k_kept_shift) | own_substeps;
 }
 
+// What prepare_bodies is told, a bit each.
+const uint k_with_records = 1u;
+const uint k_with_parts = 2u;
+const uint k_with_loads = 4u;
+
 const uint k_launched = 0u; // in place of a group: the island has too many bodies for one
 
 // Whether an island with too many bodies to share a group has few enough for one of its own.

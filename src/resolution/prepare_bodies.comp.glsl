@@ -2,8 +2,8 @@
 // One invocation is a body slot: its inertia in world axes, its number of sub-steps; no movement and no warm start yet.
 // Where it is to sleep it stops, and is left alone.
 // args.x: 1 where islands have numbers of their own. args.y: 1 where work groups solve several islands. args.z: 1 where something
-// bounces. args.w: 1 where the last step's records of bodies are there, 2 more where parts of islands may sleep, and 4 more where
-// bodies have loads.
+// bounces. args.w: k_with_records where the last step's records of bodies are there, k_with_parts where parts of islands may
+// sleep, k_with_loads where there is room for loads.
 // Reads: Counters, Poses, Velocities, Properties, Loads, Shapes, Substeps, IslandGroups, IslandSizes, BodyColours.
 // Writes: Inertias, Deltas, WarmStarts (and no hits behind them), ToldLoads (none yet); LaunchedBodies, in any order, and
 // Counters; Poses (flags), Velocities and Rests where a body falls asleep or wakes.
@@ -64,12 +64,12 @@ bool prepare(uint body)
     told_loads[k_told_words * body + k_told_mass] = 0u;
     told_loads[k_told_words * body + k_told_height] = 0u;
     bool asleep = parameters.rest_steps > 0u && is_movable(shape) && own_substeps == 0u;
-    uint kept = asleep && (args.w & 2u) != 0u ? island_sizes[body] : 0u;
+    uint kept = asleep && (args.w & k_with_parts) != 0u ? island_sizes[body] : 0u;
     BodyPose pose = before;
     pose.flags = flags_in_step(before, shape, asleep, kept != 0u, parameters);
     if (pose.flags != before.flags) poses[body] = pack(pose);
     if (asleep) sleep_on(body, before, kept);
-    if (asleep && is_asleep(before) && (args.w & 1u) != 0u) return false;
+    if (asleep && is_asleep(before) && (args.w & k_with_records) != 0u) return false;
     deltas[body] = pack(no_delta());
     uint traits = traits_of_body(shape, pose);
     vec3 inverse_inertia = unpack(properties[body]).inverse_inertia;
@@ -84,7 +84,7 @@ bool prepare(uint body)
     inertia.traits |= traits_in_graph(inertia.traits, body_colours[body_word(body, k_used_low)],
                                       body_colours[body_word(body, k_used_high)], body_colours[body_word(body, k_hub_word)]);
     if (word != its_substeps) inertia.traits |= slowness_trait(ticks, its_substeps);
-    if ((args.w & 4u) != 0u && is_loaded(unpack(loads[body]))) inertia.traits |= k_trait_loaded;
+    if ((args.w & k_with_loads) != 0u && is_loaded(unpack(loads[body]))) inertia.traits |= k_trait_loaded;
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);
     warm_starts[body] = pack(kept_warm_start(no_warm_start(), unpack(velocities[body])));

@@ -18,7 +18,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         const bool asleep =
             state.parameters.rest_steps > 0 && is_movable(state.shapes[body]) && state.substeps[body] == 0;
         const bool slept = is_asleep(pose);
-        const uint kept = asleep && (launch.args[3] & 2) != 0 ? state.island_sizes[body] : 0;
+        const uint kept = asleep && (launch.args[3] & k_with_parts) != 0 ? state.island_sizes[body] : 0;
         const bool was_in_part = (pose.flags & k_body_in_part) != 0;
         pose.flags = flags_in_step(pose, state.shapes[body], asleep, kept != 0, state.parameters);
         if (asleep) std::atomic_ref(state.counters[k_counter_sleeping_bodies]).fetch_add(1, std::memory_order_relaxed);
@@ -27,7 +27,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
             state.rests[body] = with_calm(state.rests[body], kept);
         else if (asleep && !slept)
             state.rests[body] = with_calm(state.rests[body], state.parameters.rest_steps);
-        if (asleep && slept && (launch.args[3] & 1) != 0) return;
+        if (asleep && slept && (launch.args[3] & k_with_records) != 0) return;
         state.deltas[body] = no_delta();
         const uint traits = traits_of_body(state.shapes[body], pose);
         const vec3& inverse_inertia = state.properties[body].inverse_inertia;
@@ -43,7 +43,8 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         state.inertias[body].traits |=
             traits_in_graph(state.inertias[body].traits, words[k_used_low], words[k_used_high], words[k_hub_word]);
         if (word != substeps) state.inertias[body].traits |= slowness_trait(ticks, substeps);
-        if ((launch.args[3] & 4) != 0 && is_loaded(state.loads[body])) state.inertias[body].traits |= k_trait_loaded;
+        if ((launch.args[3] & k_with_loads) != 0 && is_loaded(state.loads[body]))
+            state.inertias[body].traits |= k_trait_loaded;
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)
             state.inertias[body].traits |= k_trait_grouped;
         if (is_in_launched_bodies(state.inertias[body])) {

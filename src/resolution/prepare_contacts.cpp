@@ -52,7 +52,7 @@ static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
             const uint order = order_at(state, of.body_a, colour, k_earlier_of_a, k_last_of_a) |
                                order_at(state, of.body_b, colour, k_earlier_of_b, k_last_of_b);
             contacts[count++] = {index, manifold, colour, order, share_of_contact(state, manifold, colour)};
-            if (launch.args[3] == 1) hits_of_contact(state, index) = vec4(0.0f);
+            if (launch.args[3] == 1) put_contact_hits(state, index, vec4(0.0f));
         }
         if (count > 0) lane_passes().prepare_contacts(state, contacts, count);
     };

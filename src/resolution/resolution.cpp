@@ -112,15 +112,17 @@ void constraint_graph(Device& device, const StepPlan& plan) {
                 .args = {plan.measures_islands(), plan.needs_launches(), !plan.makes_graph}});
 }
 
-/// What only some worlds need for the solve: room for what hits have to know of bodies and contacts, behind the warm
-/// starts, and for the persistent launch's lists of a heap that may be multirate.
-static void reserve_for_solve(Device& device, const StepPlan& plan) {
+std::size_t records_with_hits(uint bodies, uint manifolds) {
     static_assert(sizeof(BodyHits) == sizeof(BodyWarmStart));
-    if (plan.bounces) {
-        const auto bodies = static_cast<uint>(device.size(BufferId::Velocities) / sizeof(BodyVelocity));
-        const std::size_t records = contact_hits_place(plan.manifold_capacity, bodies) + 1;
-        device.grow(BufferId::WarmStarts, records * sizeof(BodyWarmStart));
-    }
+    return std::size_t{contact_hits_place(manifolds, bodies)} + 1;
+}
+
+/// What only some worlds need for the solve: room for what hits have to know of bodies and contacts, behind the warm
+/// starts, where a simulation has not made it; and for the persistent launch's lists of a heap that may be multirate.
+static void reserve_for_solve(Device& device, const StepPlan& plan) {
+    if (plan.bounces)
+        device.grow(BufferId::WarmStarts,
+                    records_with_hits(plan.body_count, plan.manifold_capacity) * sizeof(BodyWarmStart));
     if (plan.persistent_groups == 0 || !plan.needs_launches() || !plan.may_be_multirate()) return;
     const uint words = fast_body_words(plan.least_substeps, plan.most_substeps);
     device.grow(BufferId::FastBodies, sizeof(uint) * words * plan.body_count);
@@ -134,7 +136,8 @@ void prepare(Device& device, const StepPlan& plan) {
     device.run({.kernel = prepare_bodies,
                 .slot = k_dispatch_bodies,
                 .args = {plan.has_islands(), plan.has_groups(), plan.bounces,
-                         (plan.records_last ? 1u : 0u) | (plan.sleeps_in_parts() ? 2u : 0u) | (plan.loads ? 4u : 0u)}});
+                         (plan.records_last ? k_with_records : 0u) | (plan.sleeps_in_parts() ? k_with_parts : 0u) |
+                             (plan.loads ? k_with_loads : 0u)}});
     run_on_near_pairs(device, plan, prepare_contacts);
 }
 

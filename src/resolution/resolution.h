@@ -20,6 +20,9 @@ void prepare(Device&, const StepPlan&);
 void solve(Device&, const StepPlan&);
 /// Impulses and colours go back to the manifolds, for the next step's warm start.
 void store_impulses(Device&, const StepPlan&);
+/// Room for what hits have to know of bodies and contacts: records of WarmStarts, behind those of all bodies, that
+/// these included.
+std::size_t records_with_hits(uint bodies, uint manifolds);
 /// The kernel that makes all passes in one launch.
 const Kernel& persistent_solver(const StepPlan&);
 /// The kernel whose work groups solve islands: each of a small world, or the little ones of a large world.

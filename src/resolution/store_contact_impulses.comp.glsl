@@ -48,7 +48,7 @@ void main()
     point_impulses[c.manifold] = pack(impulses);
     if (args.w == 1u) {
         vec4 whole = with_hits(c.total_impulse, load_contact_hits(index));
-        cell_in_block(constraints, index, k_total_impulse) = floatBitsToUint(whole);
+        cell_in_block(constraints, index, k_first_changing + 3u) = floatBitsToUint(whole);
     }
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);

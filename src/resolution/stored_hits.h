@@ -3,7 +3,10 @@
 // CpuState::some_bounce says so. The GPU's counterpart is stored_hits.glsl.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstring>
 
 #include "device/cpu/cpu_state.h"
 #include "state/formulas.h"
@@ -18,10 +21,17 @@ inline void put_hits(const CpuState& state, uint body, const BodyHits& hits) {
     state.warm_starts[hits_place(body, state.parameters.body_count)] = std::bit_cast<BodyWarmStart>(hits);
 }
 
-inline vec4& hits_of_contact(const CpuState& state, uint index) {
-    static_assert(sizeof(BodyWarmStart) == 2 * sizeof(vec4));
+using TwoHits = std::array<vec4, 2>; // that share a record
+
+inline vec4 hits_of_contact(const CpuState& state, uint index) {
+    const uint place = contact_hits_place(index, state.parameters.body_count);
+    return std::bit_cast<TwoHits>(state.warm_starts[place])[are_first_hits(index) ? 0 : 1];
+}
+
+inline void put_contact_hits(const CpuState& state, uint index, const vec4& hits) {
     BodyWarmStart& record = state.warm_starts[contact_hits_place(index, state.parameters.body_count)];
-    return reinterpret_cast<vec4*>(&record)[are_first_hits(index) ? 0 : 1];
+    std::memcpy(reinterpret_cast<std::byte*>(&record) + (are_first_hits(index) ? 0 : sizeof(vec4)), &hits,
+                sizeof(vec4));
 }
 
 } // namespace talus::engine

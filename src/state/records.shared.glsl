@@ -95,7 +95,8 @@ struct BodyWarmStart {
     float reserved_2;
 };
 
-// 32 bytes. What hits have to know of a body. Where something bounces these lie behind the warm starts of all bodies, in their buffer.
+// 32 bytes. What hits have to know of a body. Where something bounces these lie behind the warm starts of all bodies, in their buffer;
+// and behind these, two in a record, how hard hits have been on each contact in the step.
 struct BodyHits {
     vec3 shift; // m: what they add to the sub-step's movement
     float reserved_1;
@@ -184,7 +185,7 @@ struct ContactConstraint {
     vec4 lever;           // m, the distance from the middle
     vec4 base_separation; // m: separation without what the middle itself contributes
     vec4 normal_mass;     // kg, effective mass along the normal (equation 3.15)
-    // What the solver's passes change.
+    // What the solver's passes change, from k_first_changing on.
     vec3 friction_impulse; // N s, N s, N m s, accumulated
     float hub_share;       // of a hub's mass, in the colours for hubs
     vec3 slip;             // m: Slip::apart as it was when these impulses acted last (contact.shared.glsl)
@@ -193,7 +194,7 @@ struct ContactConstraint {
     vec4 total_impulse;  // N s, the sum over all sub-steps; once it is stored, with the step's hits
 };
 
-const uint k_total_impulse = 14u; // its cell
+const uint k_first_changing = 11u; // its cell, and the passes change all from it on
 
 // 8 bytes, one a constraint: of a list of those that may have more sub-steps than most.
 struct FastContact {

@@ -121,7 +121,7 @@ TALUS_LANE ContactConstraint constraints_at(const CpuState& state, const std::ui
             all_of(cell(13)),
             all_of(cell(14))};
 }
-static_assert(offsetof(engine::ContactConstraint, friction_impulse) == 11 * sizeof(Cell) &&
+static_assert(offsetof(engine::ContactConstraint, friction_impulse) == engine::k_first_changing * sizeof(Cell) &&
               sizeof(engine::ContactConstraint) == 15 * sizeof(Cell));
 
 /// Writes whole records, whose words are in order.

@@ -20,9 +20,6 @@
 
 namespace talus::engine {
 
-/// One after the other at one place.
-inline constexpr std::array k_by_turns{BufferId::TreeNodes, BufferId::SortedAabbs, BufferId::Uncoloured};
-
 /// What lies in it.
 inline constexpr auto k_room_buffers = [] {
     std::array<BufferId, 2 * k_contact_buffers.size() + 2 + k_by_turns.size()> all{};
