@@ -134,7 +134,9 @@ const uint k_most_told = 4095u * k_own_mass; // by a contact: so a sum of 65,536
 // What presses on a contact, in parts of one body's mass. `weights`: of the contact, in those of its lighter body.
 inline uint told_mass(float weights, float inverse_mass, float inverse_mass_of_other)
 {
-    precise float own_masses = weights * inverse_mass * reciprocal(max(inverse_mass, inverse_mass_of_other));
+    float inverse_mass_of_lighter = max(inverse_mass, inverse_mass_of_other); // 0 of a frozen body on a static one
+    float mass_of_lighter = choose(inverse_mass_of_lighter > 0.0f, reciprocal(inverse_mass_of_lighter), 0.0f);
+    precise float own_masses = weights * inverse_mass * mass_of_lighter;
     return uint(min(float(k_own_mass) * own_masses, float(k_most_told)));
 }
 
