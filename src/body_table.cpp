@@ -178,8 +178,12 @@ void BodyTable::recycle() {
         drop_last_slot();
 }
 
+bool acts(const BodyLoad& load) {
+    return load.disturbed != 0 || is_loaded(load);
+}
+
 bool BodyTable::has_loads() const {
-    return std::ranges::any_of(loaded, [&](uint slot) { return loads[slot].disturbed != 0 || is_loaded(loads[slot]); });
+    return std::ranges::any_of(loaded, [&](uint slot) { return acts(loads[slot]); });
 }
 
 void BodyTable::forget_loads() {

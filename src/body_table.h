@@ -30,6 +30,9 @@ struct MassProperties {
 /// What the definition gives, or its shape and density.
 MassProperties mass_properties(const BodyDefinition&);
 
+/// Whether it is a force, a torque or a reason to wake; zeros are none, whatever their sign.
+bool acts(const BodyLoad&);
+
 class BodyTable {
 public:
     /// Room for as many bodies more at one go, of which some may take slots that are free, or will be.
@@ -44,7 +47,7 @@ public:
     void recycle();
     /// To be called once a step has begun: it uses up the loads that it was given.
     void forget_loads();
-    /// Whether a body has a force, a torque or a reason to wake in the next step.
+    /// Whether some load acts in the next step.
     bool has_loads() const;
 
     /// Up to the last slot in use.

@@ -7,6 +7,7 @@
 
 #include "tests/bodies.h"
 #include "tests/devices.h"
+#include "tests/engine_run.h"
 
 namespace talus::tests {
 namespace {
@@ -141,6 +142,17 @@ TEST_P(Changes, of_forces_have_room_from_the_first_force_on) {
     world.step();
     EXPECT_NE(world.velocity(more.back()).angular.y, 0.0f) << "there is room for the bodies that have come since";
     EXPECT_GE(world.memory().device, with_forces + 3u * count * 32u);
+}
+
+TEST_P(Changes, of_minus_zero_are_no_loads) { // as a file may have them
+    EngineRun run(options_on(GetParam()), {ground(), box_at({0.0f, 0.5f, 0.0f})});
+    static_cast<void>(run.table.take_changes());
+    run.table.loads[1].force.x = -0.0f;
+    run.table.mark(1, engine::k_dirty_load);
+    EXPECT_FALSE(run.table.has_loads());
+    run.simulation.step(run.table.population(), false, run.table.take_changes());
+    run.simulation.settle();
+    EXPECT_EQ(run.simulation.step_count(), 1u);
 }
 
 TEST_P(Changes, that_empty_a_world_give_its_slots_back) {
