@@ -181,7 +181,7 @@ Simulation::Simulation(const WorldOptions& options, Devices devices)
     grow_everywhere(BufferId::Arrivals, k_arrival_words);
     reserve_rests(1);
     grow_everywhere(BufferId::Loads, 1);
-    grow_everywhere(BufferId::ColourOffsets, k_colour_offsets);
+    grow_everywhere(BufferId::ColourOffsets, k_offset_words);
     grow_everywhere(BufferId::Strays, k_most_strays);
     grow_everywhere(BufferId::KnownPairs, k_most_stray_pairs);
     grow_everywhere(BufferId::NearPairs, k_most_stray_pairs);

@@ -4,7 +4,7 @@
 // For kernels that include solve_substeps.glsl before this file, and say
 //   const uint k_dealt_together, by how many
 //   uint workers(), how many there are to deal to
-//   uint begin_of(uint colour), uint end_of(uint colour), which manifolds of a colour are dealt to them
+//   uint count_of(uint colour), uint manifold_of(uint colour, uint i), which manifolds of a colour are dealt to them
 //   bool is_first_worker(), of all
 
 uint worker; // of these
@@ -14,7 +14,6 @@ uint worker_colour;                           // of the worker's present place
 
 uint round_up(uint count, uint multiple) { return (count + multiple - 1u) / multiple * multiple; }
 
-uint count_of(uint colour) { return end_of(colour) - begin_of(colour); }
 uint places_of(uint colour) { return round_up(count_of(colour), k_dealt_together); }
 
 // By all invocations of a group.
@@ -36,7 +35,7 @@ uint manifold_at(uint place)
     while (first_places[worker_colour + 1u] <= place)
         ++worker_colour;
     uint i = place - first_places[worker_colour];
-    return i < count_of(worker_colour) ? begin_of(worker_colour) + i : k_none;
+    return i < count_of(worker_colour) ? manifold_of(worker_colour, i) : k_none;
 }
 
 // ---- the overflow set ----

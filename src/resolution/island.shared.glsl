@@ -4,11 +4,22 @@
 // Islands are the sets of rigid bodies that contacts join. They are found by union and find, and each is named by the body that
 // is its root, whoever comes first: in a small world the lowest slot, in a large one the first by order_of_root.
 
-// Manifolds are sorted by what solves them, and within it by colour: by island in a small world, by group in a large one. A
-// world of 59,000 bodies has keys of 16 bits, two passes of the sort.
-inline uint manifold_key(uint island, uint colour) { return island * k_colours_of_key + colour; }
-inline uint colour_of_key(uint key) { return key % k_colours_of_key; }
-inline uint island_of_key(uint key) { return key / k_colours_of_key; }
+// Manifolds are sorted by what solves them, and within it by colour: by island in a small world, by group in a large one. What
+// launches solve comes first; of a colour what is fast in a multirate island, so that their workers can share it evenly. Where
+// nothing else solves any, the key is the colour. A world of 58,000 bodies has keys of 16 bits, two passes of the sort.
+const uint k_first_launched_key = k_inactive_colour + 1u;
+const uint k_first_group_key = k_first_launched_key + 2u * k_colours_of_key;
+
+inline uint launched_key(uint colour, bool fast) { return k_first_launched_key + 2u * colour + (fast ? 0u : 1u); }
+inline uint manifold_key(uint island, uint colour) { return k_first_group_key + island * k_colours_of_key + colour; }
+
+inline uint colour_of_key(uint key)
+{
+    if (key < k_first_launched_key) return key;
+    return key < k_first_group_key ? (key - k_first_launched_key) / 2u : (key - k_first_group_key) % k_colours_of_key;
+}
+
+inline uint island_of_key(uint key) { return (key - k_first_group_key) / k_colours_of_key; }
 
 // ---- large worlds ----
 

@@ -2,18 +2,22 @@
 // One invocation is a pair: its manifold's place in the order of the solve, by group and then by colour. One between
 // sleepers comes last, as those that do not touch.
 // args.x: 1 where ManifoldOrder lists the pairs that the graph is made of.
-// Reads: IslandGroups, Islands, Manifolds; ManifoldKeys, the colour of each pair.
+// Reads: IslandGroups, Islands, Substeps, Manifolds; ManifoldKeys, the colour of each pair.
 // Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs
 // launches and what sleeps.
 // Needs: a barrier after group_islands.
 // Overflow: none.
+#include "state/math.shared.glsl"
 #include "resolution/colouring.shared.glsl"
+#include "resolution/load.shared.glsl"
+#include "resolution/multirate.shared.glsl"
 #include "resolution/island.shared.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
+layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
 layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
@@ -40,8 +44,12 @@ void main()
         return;
     }
     uint group = group_number(island_groups[body]);
-    keys[entry] = manifold_key(group, colour);
-    if (group != k_launched) return;
+    if (group != k_launched) {
+        keys[entry] = manifold_key(group, colour);
+        return;
+    }
+    bool fast = colour < k_first_hub_colour && is_fast(substeps[body], substeps_of(manifold.demand), parameters);
+    keys[entry] = launched_key(colour, fast);
     if (colour < k_first_hub_colour) raise_counter(k_counter_launched_colours, colours_down_to(colour));
     if (colour == k_overflow_colour) atomicAdd(counters[k_counter_launched_overflow], 1u);
 }

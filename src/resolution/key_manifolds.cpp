@@ -24,8 +24,12 @@ static void key_manifolds_on_cpu(CpuState& state, const Launch& launch) {
             continue;
         }
         const uint group = group_number(state.island_groups[body]);
-        key = manifold_key(group, colour);
-        if (group != k_launched) continue;
+        if (group != k_launched) {
+            key = manifold_key(group, colour);
+            continue;
+        }
+        key = launched_key(colour, colour < k_first_hub_colour &&
+                                       is_fast(state.substeps[body], substeps_of(manifold.demand), state.parameters));
         uint& colours = state.counters[k_counter_launched_colours];
         if (colour < k_first_hub_colour) colours = max(colours, colours_down_to(colour));
         if (colour == k_overflow_colour) ++state.counters[k_counter_launched_overflow];

@@ -23,6 +23,12 @@ inline uint doubled_substeps(uint demand, Parameters p)
     return substeps;
 }
 
+// Whether the contact of a body, of which Substeps has `word`, has more sub-steps than most.
+inline bool is_fast(uint word, uint demand, Parameters p)
+{
+    return (word & k_multirate) != 0u && demand > p.least_substeps;
+}
+
 inline bool is_multirate(uint traits) { return (traits >> k_slowness_shift) != 0u; }
 
 // r: a tick in 2^r begins a sub-step.

@@ -22,14 +22,14 @@ layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
 
 shared uint offsets[k_colour_offsets];
 
-// The first manifold of a colour or a later one, of those that no work group solves.
-uint first_of(uint colour)
+// The first manifold with a key or a later one.
+uint first_of(uint key)
 {
     uint first = 0u;
     uint end = counters[k_counter_graph_pairs];
     while (first < end) {
         uint middle = first + (end - first) / 2u;
-        if (manifold_keys[middle] < colour)
+        if (manifold_keys[middle] < key)
             first = middle + 1u;
         else
             end = middle;
@@ -37,12 +37,15 @@ uint first_of(uint colour)
     return first;
 }
 
-void find_offsets(bool is_new)
+// Of those that no work group solves. `apart`: these have keys of their own.
+void find_offsets(bool is_new, bool apart)
 {
     for (uint colour = gl_LocalInvocationID.x; colour < k_colour_offsets; colour += gl_WorkGroupSize.x) {
-        offsets[colour] = is_new ? first_of(colour) : colour_offsets[colour];
+        offsets[colour] = is_new ? first_of(apart ? launched_key(colour, true) : colour) : colour_offsets[colour];
         if (is_new) colour_offsets[colour] = offsets[colour];
     }
+    uint colour = gl_LocalInvocationID.x;
+    if (is_new) colour_offsets[k_fast_ends + colour] = apart ? first_of(launched_key(colour, false)) : offsets[colour];
 }
 
 void main()
@@ -58,7 +61,7 @@ void main()
     uint made_for = counters[k_counter_graph_due];
     bool due = (made_for != 0u && made_for != k_due_for_hubs) || has_unweighed_hubs;
     bool is_new = args.z == 0u && made_for != 0u;
-    if (launches) find_offsets(is_new);
+    if (launches) find_offsets(is_new, measured);
     if (args.z == 1u && due) did_not_fit |= k_fit_graph;
     if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
         did_not_fit |= k_fit_colours;

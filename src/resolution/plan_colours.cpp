@@ -8,11 +8,15 @@
 
 namespace talus::engine {
 
-/// Where each colour begins, of the manifolds that no work group solves.
-static void find_offsets(CpuState& state) {
+/// Where each colour begins, of the manifolds that no work group solves. `apart`: these have keys of their own.
+static void find_offsets(CpuState& state, bool apart) {
     const uint *keys = state.manifold_keys.data, *end = keys + state.counters[k_counter_graph_pairs];
+    const auto first_of = [&](uint key) { return static_cast<uint>(std::lower_bound(keys, end, key) - keys); };
     for (uint colour = 0; colour < k_colour_offsets; ++colour)
-        state.colour_offsets[colour] = static_cast<uint>(std::lower_bound(keys, end, colour) - keys);
+        state.colour_offsets[colour] = first_of(apart ? launched_key(colour, true) : colour);
+    for (uint colour = 0; colour < k_max_colours; ++colour)
+        state.colour_offsets[k_fast_ends + colour] =
+            apart ? first_of(launched_key(colour, false)) : state.colour_offsets[colour];
 }
 
 static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
@@ -25,7 +29,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     const uint made_for = counters[k_counter_graph_due];
     const bool due = (made_for != 0 && made_for != k_due_for_hubs) || has_unweighed_hubs;
     const bool is_new = launch.args[2] == 0 && made_for != 0;
-    if (launches && is_new) find_offsets(state);
+    if (launches && is_new) find_offsets(state, measured);
     if (launch.args[2] == 1 && due) did_not_fit |= k_fit_graph;
     const uint colours = counters[measured ? k_counter_launched_colours : k_counter_colour_demand];
     const uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];

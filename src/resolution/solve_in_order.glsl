@@ -112,7 +112,8 @@ void list_fast_contact()
 //
 // Each group has a part of every colour. Manifolds of one colour are in the order of pairs, so what a group has of all colours
 // is close together in space: it finds what it reads of bodies where it has read it before, waits for few other groups, and these
-// need not all load at a time and wait at a time.
+// need not all load at a time and wait at a time. What is fast lies close together, too, and is shared for itself: else all groups
+// would wait for a few in the ticks in which nothing else has a sub-step.
 
 // Where the group's part of so many begins; that of the next group ends it.
 uint part_begin(uint count, uint group)
@@ -123,9 +124,25 @@ uint part_begin(uint count, uint group)
 
 shared uint part_begins[k_max_colours];
 shared uint part_ends[k_max_colours];
+shared uint fast_begins[k_multirate_islands ? k_max_colours : 1u];
+shared uint fast_counts[k_multirate_islands ? k_max_colours : 1u];
 
-uint begin_of(uint colour) { return part_begins[colour]; }
-uint end_of(uint colour) { return part_ends[colour]; }
+uint count_of_fast(uint colour) { return k_multirate_islands ? fast_counts[colour] : 0u; }
+uint count_of(uint colour) { return part_ends[colour] - part_begins[colour] + count_of_fast(colour); }
+
+// What is fast comes first.
+uint manifold_of(uint colour, uint i)
+{
+    uint fast = count_of_fast(colour);
+    return k_multirate_islands && i < fast ? fast_begins[colour] + i : part_begins[colour] + (i - fast);
+}
+
+// `begin`, `end`: of what is dealt to all groups.
+void find_part(uint colour, uint begin, uint end)
+{
+    part_begins[colour] = begin + part_begin(end - begin, gl_WorkGroupID.x);
+    part_ends[colour] = begin + part_begin(end - begin, gl_WorkGroupID.x + 1u);
+}
 
 const uint k_dealt_together = k_in_step;
 uint workers() { return gl_WorkGroupSize.x; }
@@ -142,9 +159,14 @@ void deal_manifolds()
     if (worker < 3u) is_left[worker] = 0u;
     if (worker == 0u) fast_count = 0u;
     for (uint colour = worker; colour < k_max_colours; colour += workers()) {
-        uint count = colour_offsets[colour + 1u] - colour_offsets[colour];
-        part_begins[colour] = colour_offsets[colour] + part_begin(count, gl_WorkGroupID.x);
-        part_ends[colour] = colour_offsets[colour] + part_begin(count, gl_WorkGroupID.x + 1u);
+        uint begin = colour_offsets[colour];
+        if (k_multirate_islands) {
+            find_part(colour, begin, stored_offsets[k_fast_ends + colour]);
+            fast_begins[colour] = part_begins[colour];
+            fast_counts[colour] = part_ends[colour] - part_begins[colour];
+            begin = stored_offsets[k_fast_ends + colour];
+        }
+        find_part(colour, begin, colour_offsets[colour + 1u]);
     }
     barrier();
     find_places();
@@ -156,7 +178,7 @@ uint first_place_from(uint end) { return worker + round_up(max(end, worker) - wo
 // Of what is listed, one after the other.
 uint manifold_in_list(uint index)
 {
-    while (end_of(worker_colour) <= index)
+    while (part_ends[worker_colour] <= index)
         ++worker_colour;
     return index;
 }

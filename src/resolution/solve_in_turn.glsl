@@ -9,8 +9,8 @@
 // Where contacts wait, what runs in step is to have contacts of one colour; but of several small islands there are few of a colour.
 const uint k_dealt_together = k_waits_freely && k_one_island ? k_in_step : 1u;
 
-uint begin_of(uint colour) { return colour_offsets[colour]; }
-uint end_of(uint colour) { return colour_offsets[colour + 1u]; }
+uint count_of(uint colour) { return colour_offsets[colour + 1u] - colour_offsets[colour]; }
+uint manifold_of(uint colour, uint i) { return colour_offsets[colour] + i; }
 
 #include "resolution/deal.glsl"
 
