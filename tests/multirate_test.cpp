@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes/scene.h"
 #include "state/formulas.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
@@ -58,13 +59,13 @@ struct Contacts {
          beside_faster = 0; ///< beside_faster: one of the bodies has more sub-steps than the contact
 };
 
-Contacts count_contacts(const EngineRun& run) {
+Contacts count_contacts(const EngineRun& run, uint least = 2) {
     const auto constraints =
         run.read<engine::ContactConstraint>(BufferId::Constraints, run.counter(engine::k_counter_manifold_count));
     const auto inertias = run.read<engine::BodyInertia>(BufferId::Inertias, run.table.slot_count());
     Contacts contacts;
     for (const engine::ContactConstraint& c : constraints) {
-        ++(engine::substeps_of_contact(c.counts) == 2 ? contacts.slow : contacts.fast);
+        ++(engine::substeps_of_contact(c.counts) == least ? contacts.slow : contacts.fast);
         const bool is_faster =
             std::max(inertias[c.body_a].substeps, inertias[c.body_b].substeps) > engine::substeps_of_contact(c.counts);
         contacts.beside_faster += engine::is_multirate(c.traits) && is_faster ? 1 : 0;
@@ -118,6 +119,22 @@ TEST(Multirate, what_stands_on_a_corner_asks_for_more) {
     EXPECT_NEAR(engine::yielding_of({200.0f, 0.0f, 0.0f, 0.0f}, of_face, 1e-3f), 4.0f, 1e-5f);
     EXPECT_NEAR(engine::yielding_of({200.0f, 0.0f, 0.0f, 0.0f}, of_corner, 1e-3f), 4.0f, 1e-5f);
     EXPECT_EQ(engine::yielding_of(engine::vec4(0.0f), of_face, 1e-3f), 1.0f) << "it carries nothing";
+}
+
+/// Of each colour what has more sub-steps than most comes first, and nothing else does.
+void expect_the_fast_first(const EngineRun& run) {
+    const uint least = static_cast<uint>(run.settings.substeps);
+    const auto offsets = run.read<uint>(BufferId::ColourOffsets, engine::k_offset_words);
+    const auto constraints =
+        run.read<engine::ContactConstraint>(BufferId::Constraints, run.counter(engine::k_counter_manifold_count));
+    for (uint colour = 0; colour < engine::k_first_hub_colour; ++colour) {
+        const uint fast_end = offsets[engine::k_fast_ends + colour];
+        for (uint i = offsets[colour]; i < offsets[colour + 1]; ++i) {
+            const engine::ContactConstraint& c = constraints[i];
+            const bool fast = engine::is_multirate(c.traits) && engine::substeps_of_contact(c.counts) > least;
+            ASSERT_EQ(i < fast_end, fast) << "manifold " << i << " of colour " << colour;
+        }
+    }
 }
 
 class MultirateIslands : public OnDevice {
@@ -187,6 +204,35 @@ TEST_P(MultirateIslands, sleep_in_parts_and_what_is_awake_keeps_its_sub_steps) {
     const Contacts contacts = count_contacts(one);
     EXPECT_GT(contacts.slow, 0u);
     EXPECT_GT(contacts.fast, 0u);
+}
+
+/// Also while it falls, when its islands have one number each, and few or many of them are solved by the same launch.
+TEST_P(MultirateIslands, a_heap_of_light_and_heavy_boxes_has_the_same_bits) {
+    const scenes::Scene scene = scenes::make_scene("pile:boxes=2000");
+    std::vector<BodyDefinition> bodies;
+    for (const scenes::NamedBody& body : scene.bodies)
+        bodies.push_back(body.definition);
+    for (std::size_t i = 10; i < bodies.size(); i += 45)
+        bodies[i].mass = 100000.0f;
+    EngineRun one(options_on(GetParam()), bodies, scene.settings);
+    EngineRun expected(options_on(DeviceKind::Cpu), bodies, scene.settings);
+    for (EngineRun* each : {&one, &expected}) {
+        each->simulation.reserve_pairs(16384);
+        each->least_multirate = 700;
+    }
+    uint most_fast = 0, multirate_steps = 0;
+    for (uint step = 0; step < 182; ++step) {
+        one.step_persistently(step % 2 == 0);
+        expected.step_in_many_launches();
+        ASSERT_TRUE(one.motion() == expected.motion()) << step;
+        if (one.counter(engine::k_counter_multirate_islands) == 0) continue;
+        ++multirate_steps;
+        ASSERT_NO_FATAL_FAILURE(expect_the_fast_first(one));
+        const Contacts contacts = count_contacts(one, 8);
+        most_fast = std::max(most_fast, contacts.fast);
+    }
+    EXPECT_GT(multirate_steps, 5u);
+    EXPECT_GT(most_fast, 500u);
 }
 
 TALUS_ON_EVERY_DEVICE(MultirateIslands);
