@@ -5,8 +5,9 @@
 // is its root, whoever comes first: in a small world the lowest slot, in a large one the first by order_of_root.
 
 // Manifolds are sorted by what solves them, and within it by colour: by island in a small world, by group in a large one. What
-// launches solve comes first; of a colour what is fast in a multirate island, so that their workers can share it evenly. Where
-// nothing else solves any, the key is the colour. A world of 58,000 bodies has keys of 16 bits, two passes of the sort.
+// launches solve comes first; of each of its colours first what is fast in a multirate island, so that workers can share that
+// evenly. Where islands are not told apart, and no group solves any, the key is the colour itself, which is less than all of
+// these. A world of 59,000 bodies has keys of 16 bits, two passes of the sort.
 const uint k_first_launched_key = k_inactive_colour + 1u;
 const uint k_first_group_key = k_first_launched_key + 2u * k_colours_of_key;
 

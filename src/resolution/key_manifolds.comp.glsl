@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a pair: its manifold's place in the order of the solve, by group and then by colour. One between
-// sleepers comes last, as those that do not touch.
+// One invocation is a pair: its manifold's place in the order of the solve, by group, then by colour, and with what is fast in a
+// multirate heap first. One between sleepers comes last, as those that do not touch.
 // args.x: 1 where ManifoldOrder lists the pairs that the graph is made of.
 // Reads: IslandGroups, Islands, Substeps, Manifolds; ManifoldKeys, the colour of each pair.
 // Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs

@@ -23,7 +23,7 @@ inline uint doubled_substeps(uint demand, Parameters p)
     return substeps;
 }
 
-// Whether the contact of a body, of which Substeps has `word`, has more sub-steps than most.
+// Whether a contact of a multirate island has more sub-steps than most. `word`: Substeps of one of its bodies.
 inline bool is_fast(uint word, uint demand, Parameters p)
 {
     return (word & k_multirate) != 0u && demand > p.least_substeps;

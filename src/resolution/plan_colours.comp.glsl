@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One group, an invocation for each colour: where it begins, whether the colours and the sub-steps fit, and the launches of the
+// One group, an invocation for each colour: where it begins, and where what is fast in it ends; whether the colours and the sub-steps fit, and the launches of the
 // resolution. args.x: 1 where what is launched has been counted apart. args.y: 0 where a work group solves each island, so
 // that colours and sub-steps need no launches; hubs cannot be solved there. args.z: 1 where the graph has not been made, as
 // it should be the last step's.
@@ -37,7 +37,7 @@ uint first_of(uint key)
     return first;
 }
 
-// Of those that no work group solves. `apart`: these have keys of their own.
+// Of the manifolds that no work group solves. `apart`: they have keys of their own.
 void find_offsets(bool is_new, bool apart)
 {
     for (uint colour = gl_LocalInvocationID.x; colour < k_colour_offsets; colour += gl_WorkGroupSize.x) {

@@ -8,7 +8,8 @@
 
 namespace talus::engine {
 
-/// Where each colour begins, of the manifolds that no work group solves. `apart`: these have keys of their own.
+/// Where each colour begins, and what is fast in it ends, of the manifolds that no work group solves. `apart`: they
+/// have keys of their own.
 static void find_offsets(CpuState& state, bool apart) {
     const uint *keys = state.manifold_keys.data, *end = keys + state.counters[k_counter_graph_pairs];
     const auto first_of = [&](uint key) { return static_cast<uint>(std::lower_bound(keys, end, key) - keys); };

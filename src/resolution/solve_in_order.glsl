@@ -112,8 +112,8 @@ void list_fast_contact()
 //
 // Each group has a part of every colour. Manifolds of one colour are in the order of pairs, so what a group has of all colours
 // is close together in space: it finds what it reads of bodies where it has read it before, waits for few other groups, and these
-// need not all load at a time and wait at a time. What is fast lies close together, too, and is shared for itself: else all groups
-// would wait for a few in the ticks in which nothing else has a sub-step.
+// need not all load at a time and wait at a time. In a multirate heap what is fast comes first in each colour, in that order, too, and is
+// shared by itself: it lies close together, and in the ticks in which most have no sub-step all groups would wait for a few.
 
 // Where the group's part of so many begins; that of the next group ends it.
 uint part_begin(uint count, uint group)
@@ -124,17 +124,17 @@ uint part_begin(uint count, uint group)
 
 shared uint part_begins[k_max_colours];
 shared uint part_ends[k_max_colours];
-shared uint fast_begins[k_multirate_islands ? k_max_colours : 1u];
-shared uint fast_counts[k_multirate_islands ? k_max_colours : 1u];
+shared uint fast_part_begins[k_multirate_islands ? k_max_colours : 1u];
+shared uint fast_part_counts[k_multirate_islands ? k_max_colours : 1u];
 
-uint count_of_fast(uint colour) { return k_multirate_islands ? fast_counts[colour] : 0u; }
+uint count_of_fast(uint colour) { return k_multirate_islands ? fast_part_counts[colour] : 0u; }
 uint count_of(uint colour) { return part_ends[colour] - part_begins[colour] + count_of_fast(colour); }
 
 // What is fast comes first.
 uint manifold_of(uint colour, uint i)
 {
     uint fast = count_of_fast(colour);
-    return k_multirate_islands && i < fast ? fast_begins[colour] + i : part_begins[colour] + (i - fast);
+    return k_multirate_islands && i < fast ? fast_part_begins[colour] + i : part_begins[colour] + (i - fast);
 }
 
 // `begin`, `end`: of what is dealt to all groups.
@@ -160,10 +160,10 @@ void deal_manifolds()
     if (worker == 0u) fast_count = 0u;
     for (uint colour = worker; colour < k_max_colours; colour += workers()) {
         uint begin = colour_offsets[colour];
-        if (k_multirate_islands) {
+        if (k_multirate_islands) { // first of what is fast, then of the rest
             find_part(colour, begin, stored_offsets[k_fast_ends + colour]);
-            fast_begins[colour] = part_begins[colour];
-            fast_counts[colour] = part_ends[colour] - part_begins[colour];
+            fast_part_begins[colour] = part_begins[colour];
+            fast_part_counts[colour] = part_ends[colour] - part_begins[colour];
             begin = stored_offsets[k_fast_ends + colour];
         }
         find_part(colour, begin, colour_offsets[colour + 1u]);

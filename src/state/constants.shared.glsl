@@ -61,7 +61,7 @@ const uint k_colour_offsets = k_overflow_colour + 2u; // where each of these beg
 const uint k_fast_ends = k_colour_offsets; // behind them: where what is fast in a multirate island ends, of each colour
 const uint k_offset_words = k_fast_ends + k_max_colours;
 const uint k_inactive_colour = 127u;
-const uint k_colours_of_key = k_overflow_colour + 1u; // of what is solved; a manifold's key counts them, and the islands above
+const uint k_colours_of_key = k_overflow_colour + 1u; // of what is solved; keys of manifolds count them: see island.shared.glsl
 const uint k_no_colour = 0xffu; // not coloured yet
 const uint k_whole_hub = 0x80u; // Manifold::colour has it added where the manifold met a hub with its whole mass
 
