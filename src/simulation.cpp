@@ -122,6 +122,11 @@ uint share_of_manifolds(uint demand) {
     return demand < k_large_demand ? 2 : 16;
 }
 
+/// `goes_on`: they have grown lately, as those of a heap do while it falls, and will again.
+uint share_of_pairs(uint demand, bool goes_on) {
+    return demand < k_large_demand || goes_on ? 4 : 16;
+}
+
 } // namespace
 
 void Trust::note(bool needed) {
@@ -223,7 +228,7 @@ void Simulation::reserve_bodies(uint count) {
     if (has_loads) grow_everywhere(BufferId::Loads, capacity);
     grow_everywhere(BufferId::SpreadSums, capacity / k_spread_group + 1);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
-    grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words} * capacity);
+    grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words + 1} * capacity);
     if (settings.sleeping) reserve_rests(capacity);
     body_capacity = capacity; // only now: a buffer may have no room
 }
@@ -666,7 +671,9 @@ void Simulation::follow_demand(std::span<const uint> counters) {
 }
 
 void Simulation::make_contact_room(uint pairs, uint manifolds) {
-    const uint pair_room = with_headroom(pairs, plan.pair_capacity);
+    const bool goes_on = finished_count < pairs_grew_at + k_demand_window;
+    const uint pair_room = with_headroom(pairs, plan.pair_capacity, share_of_pairs(pairs, goes_on));
+    if (pairs > plan.pair_capacity) pairs_grew_at = finished_count;
     const uint manifold_room = std::max(with_headroom(manifolds, plan.manifold_capacity, share_of_manifolds(manifolds)),
                                         likely_manifolds(pairs));
     try {

@@ -221,6 +221,7 @@ private:
 
     std::deque<Pending> pending;
     std::uint64_t finished_count = 0;
+    std::uint64_t pairs_grew_at = 0; ///< finished_count when there was last made room for more of them
     std::uint32_t growths = 0;
     Trust pairs_last;          ///< that a step need not search for pairs
     Trust list_lasts;          ///< that it need not search for all

@@ -56,6 +56,7 @@ struct Items {
     CpuState state() {
         CpuState s;
         s.parameters.gravity = vec3(0.0f, -9.81f, 0.0f);
+        s.parameters.body_count = k_bodies;
         s.parameters.dt = 1.0f / 60.0f;
         s.parameters.inv_dt = 60.0f;
         s.parameters.inverse_weight = 60.0f / 9.81f;
@@ -314,6 +315,9 @@ void tell_load_of(const CpuState& state, const ContactToPrepare& contact, const 
                   std::vector<uint>& told) {
     const Manifold& manifold = state.manifolds[contact.manifold];
     const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);
+    const ToldFoot foot = told_foot(manifold, standing);
+    uint& foot_told = told[told_foot_word(foot.body, state.parameters.body_count)];
+    foot_told = max(foot_told, foot.rate);
     const LoadBelow load = load_below(manifold, standing, state.velocities[manifold.body_a].inverse_mass,
                                       state.velocities[manifold.body_b].inverse_mass);
     if (load.mass == 0) return;
@@ -363,7 +367,7 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
         const uint point_count = point_count_of(c.counts);
         manifolds.push_back({c.body_a, c.body_b, point_count, 0, c.normal, 0, 0.5f, 0.0f, friction.x, friction.y,
                              friction.z, 1.0f + items.number(0.9f), 1.0f + items.number(0.9f),
-                             make_demand(8, 0, 1 + i % 5)});
+                             make_demand(8, 0, i % 7, 1 + i % 5)});
         for (uint k = 0; k < 4; ++k) // those that are not there may be anything
             points.push_back({k < point_count ? items.vector(0.5f) : vec3(NAN), k});
         separations.push_back({items.vector4(0.02f), items.vector(0.1f), 0.0f});
@@ -373,11 +377,11 @@ TEST(Lanes, prepare_contacts_with_the_bits_of_one_at_a_time) {
         contacts.push_back({i, i, of_hub && i % 2 == 0 ? k_first_hub_colour : i % 3, order, of_hub ? 0.125f : 1.0f});
     }
     std::vector<ContactConstraint> wanted;
-    std::vector<uint> wanted_loads(k_told_words * Items::k_bodies, 0);
+    std::vector<uint> wanted_loads((k_told_words + 1) * Items::k_bodies, 0);
     for (const LanePasses* passes : TALUS_RUNNABLE(lane_passes)) {
         SCOPED_TRACE(std::to_string(passes->lanes) + " lanes");
         std::vector<ContactConstraint> made(Items::k_count);
-        std::vector<uint> told(k_told_words * Items::k_bodies, 0);
+        std::vector<uint> told((k_told_words + 1) * Items::k_bodies, 0);
         CpuState state = items.state();
         state.manifolds = {manifolds.data(), manifolds.size()};
         state.manifold_points = {points.data(), points.size()};

@@ -331,8 +331,10 @@ TEST(Math, the_height_of_a_column_is_told_from_above) {
     EXPECT_EQ(told_mass(2.03f, 1.0f, 0.5f), 32u);
     EXPECT_EQ(told_mass(2.03f, 1.0f, 0.0f), 32u) << "pressed by what cannot be pushed";
     EXPECT_EQ(told_mass(k_most_weights, 1e6f, 1e-6f), k_most_told);
-    EXPECT_EQ(idle_steps_of(make_demand(1000, 2007, 255)), 2007u);
-    EXPECT_EQ(height_of(make_demand(1000, 2007, 255)), 255u);
+    EXPECT_EQ(substeps_of(make_demand(1000, 2007, 6, 255)), 1000u);
+    EXPECT_EQ(idle_steps_of(make_demand(1000, 2007, 6, 255)), 2007u);
+    EXPECT_EQ(foot_rate_of(make_demand(1000, 2007, 6, 255)), 6u);
+    EXPECT_EQ(height_of(make_demand(1000, 2007, 6, 255)), 255u);
 }
 
 TEST(Math, a_storey_stands_plumb_on_a_lower_body) {
@@ -362,7 +364,9 @@ TEST(Math, a_column_counts_storeys_and_without_gravity_its_load) {
 }
 
 TEST(Math, what_asks_for_less_than_its_island_has_does_not_change_it) {
-    const auto demand = [](uint substeps, uint height) { return engine::make_demand(substeps, 0, height); };
+    const auto demand = [](uint substeps, uint height, uint foot_rate = 0) {
+        return engine::make_demand(substeps, 0, foot_rate, height);
+    };
     EXPECT_TRUE(engine::asks_alike(demand(8, 1), demand(12, 30), 16, false));
     EXPECT_TRUE(engine::asks_alike(demand(16, 1), demand(16, 30), 16, false));
     EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(16, 1), 16, false))
@@ -370,7 +374,8 @@ TEST(Math, what_asks_for_less_than_its_island_has_does_not_change_it) {
     EXPECT_FALSE(engine::asks_alike(demand(16, 1), demand(8, 1), 16, false)) << "it may have been the only one";
     EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(24, 1), 16, false));
     EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(12, 1), 16, true)) << "each has its own";
-    EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(8, 30), 16, true)) << "a tall column has the same for all";
+    EXPECT_FALSE(engine::asks_alike(demand(8, 1), demand(8, 1, 2), 16, true)) << "or what the foot below asks for";
+    EXPECT_TRUE(engine::asks_alike(demand(8, 1, 2), demand(8, 1), 16, false));
     EXPECT_TRUE(engine::asks_alike(demand(8, 1), demand(8, 2), 16, true));
 }
 

@@ -24,24 +24,15 @@ Settings eight_at_most() {
     return settings;
 }
 
-/// After a step: lets the contacts ask for 2, 4 or 8 sub-steps, by turns, as those of low columns.
+/// After a step: lets the contacts ask for 2, 4 or 8 sub-steps, by turns, as those of low columns, and some stand on a
+/// foot.
 void ask_for_different_substeps(EngineRun& run) {
     std::vector<engine::Manifold> manifolds = run.manifolds();
     for (std::size_t i = 0; i < manifolds.size(); ++i)
-        manifolds[i].demand = engine::make_demand(i % 7 == 0 ? 8 : i % 3 == 0 ? 4 : 2, 0, 1);
+        manifolds[i].demand = engine::make_demand(i % 7 == 0 ? 8 : i % 3 == 0 ? 4 : 2, 0, i % 11 == 0 ? i % 4 : 0, 1);
     run.simulation.write(BufferId::OldManifolds, 0, std::span<const engine::Manifold>(manifolds));
     const uint due = 1;
     run.simulation.write(BufferId::Counters, engine::k_counter_graph_due, std::span(&due, 1));
-}
-
-/// After a step: nor had the island that bodies sleep as parts of any other.
-void forget_tall_columns(EngineRun& run, std::size_t bodies) {
-    std::vector<engine::BodyRest> rests(bodies);
-    run.simulation.read_state(
-        std::array{engine::ReadRequest{BufferId::Rests, rests.size() * sizeof rests[0], rests.data()}});
-    for (engine::BodyRest& rest : rests)
-        if ((rest.calm & engine::k_kept_island) != 0) rest.calm &= ~engine::k_kept_tall;
-    run.simulation.write(BufferId::Rests, 0, std::span<const engine::BodyRest>(rests));
 }
 
 /// A wall with more bodies than a work group solves.
@@ -51,6 +42,16 @@ std::vector<BodyDefinition> long_wall(int boxes_a_row = 190) {
         for (int i = 0; i < boxes_a_row; ++i)
             bodies.push_back(box_at({1.001f * static_cast<float>(i) + 0.5f * static_cast<float>(row % 2),
                                      0.5f + static_cast<float>(row), 0.0f}));
+    return bodies;
+}
+
+/// The tower's boxes come first, from the lowest up.
+std::vector<BodyDefinition> tower_in_large_world(uint height) {
+    std::vector<BodyDefinition> bodies{ground()};
+    for (uint i = 0; i < height; ++i)
+        bodies.push_back(box_at({0.0f, 0.5f + static_cast<float>(i), 0.0f}));
+    for (int i = 0; i < 1030; ++i)
+        bodies.push_back(box_at({5.0f + 2.0f * static_cast<float>(i % 40), 0.5f, 2.0f * static_cast<float>(i / 40)}));
     return bodies;
 }
 
@@ -121,19 +122,21 @@ TEST(Multirate, what_stands_on_a_corner_asks_for_more) {
     EXPECT_EQ(engine::yielding_of(engine::vec4(0.0f), of_face, 1e-3f), 1.0f) << "it carries nothing";
 }
 
-/// Of each colour what has more sub-steps than most comes first, and nothing else does. `count`: how many that are.
+/// Contacts of each colour stand by their rate, the fastest first. `count`: how many have more sub-steps than most.
 void expect_the_fast_first(const EngineRun& run, uint& count) {
-    const uint least = static_cast<uint>(run.settings.substeps);
+    const uint slowest =
+        engine::slowness_at(run.counter(engine::k_counter_launched_substeps), static_cast<uint>(run.settings.substeps));
     const auto offsets = run.read<uint>(BufferId::ColourOffsets, engine::k_offset_words);
     const auto constraints =
         run.read<engine::ContactConstraint>(BufferId::Constraints, run.counter(engine::k_counter_manifold_count));
     for (uint colour = 0; colour < engine::k_first_hub_colour; ++colour) {
-        const uint fast_end = offsets[engine::k_fast_ends + colour];
         for (uint i = offsets[colour]; i < offsets[colour + 1]; ++i) {
-            const engine::ContactConstraint& c = constraints[i];
-            const bool fast = engine::is_multirate(c.traits) && engine::substeps_of_contact(c.counts) > least;
-            ASSERT_EQ(i < fast_end, fast) << "manifold " << i << " of colour " << colour;
-            count += fast ? 1 : 0;
+            uint r = 0;
+            while (r < engine::k_most_doublings && i >= offsets[engine::rate_end_word(colour, r)])
+                ++r;
+            const uint traits = constraints[i].traits;
+            ASSERT_EQ(r, engine::slowness(traits)) << "manifold " << i << " of colour " << colour;
+            count += engine::is_multirate(traits) && r < slowest ? 1 : 0;
         }
     }
 }
@@ -198,7 +201,6 @@ TEST_P(MultirateIslands, sleep_in_parts_and_what_is_awake_keeps_its_sub_steps) {
         for (int i = 0; i < 12; ++i)
             each->step_in_many_launches();
         ask_for_different_substeps(*each);
-        forget_tall_columns(*each, bodies.size());
     }
     ASSERT_NO_FATAL_FAILURE(step_in_all_ways(one, many, expected));
     const uint sleeping = one.counter(engine::k_counter_sleeping_bodies);
@@ -239,28 +241,85 @@ TEST_P(MultirateIslands, a_heap_of_light_and_heavy_boxes_has_the_same_bits) {
     EXPECT_GT(most_fast, 50u);
 }
 
+/// By its own load only the lower contacts of a tower would have the most, and it would lean.
+TEST_P(MultirateIslands, a_tall_column_has_what_its_foot_asks_for) {
+    constexpr uint k_height = 36;
+    const std::vector<BodyDefinition> bodies = tower_in_large_world(k_height);
+    EngineRun one(options_on(GetParam()), bodies, eight_at_most());
+    EngineRun expected(options_on(DeviceKind::Cpu), bodies, eight_at_most());
+    for (EngineRun* each : {&one, &expected}) {
+        each->simulation.reserve_pairs(8192);
+        each->least_multirate = k_height;
+    }
+    for (uint step = 0; step < 120; ++step) {
+        one.step_persistently(step % 2 == 0);
+        expected.step_in_many_launches();
+        ASSERT_TRUE(one.motion() == expected.motion()) << step;
+    }
+    EXPECT_EQ(one.counter(engine::k_counter_multirate_islands), 1u);
+    const auto constraints =
+        one.read<engine::ContactConstraint>(BufferId::Constraints, one.counter(engine::k_counter_manifold_count));
+    const std::vector<engine::Manifold> manifolds = one.manifolds();
+    uint of_tower = 0, ask_for_less = 0;
+    for (const engine::ContactConstraint& c : constraints) {
+        if (c.body_a == 0 || c.body_b > k_height) continue;
+        const bool at_the_top = c.body_b + 2 > k_height; // where bodies carry no more than two of their own mass
+        ++of_tower;
+        ask_for_less += engine::substeps_of(manifolds[c.manifold].demand) < 8 ? 1 : 0;
+        EXPECT_EQ(engine::substeps_of_contact(c.counts) == 8, !at_the_top) << "below box " << c.body_b;
+    }
+    EXPECT_EQ(of_tower, k_height - 1);
+    EXPECT_GT(ask_for_less, k_height / 4);
+}
+
 TALUS_ON_EVERY_DEVICE(MultirateIslands);
 
-TEST(Multirate, a_tall_column_has_one_number_throughout) {
-    EngineRun run(options_on(DeviceKind::Cpu), long_wall(), eight_at_most());
-    run.simulation.reserve_pairs(8192);
-    run.least_multirate = 1025;
-    run.step_in_many_launches();
-    ask_for_different_substeps(run);
-    std::vector<engine::Manifold> manifolds = run.manifolds();
-    for (engine::Manifold& manifold : manifolds) {
-        if (manifold.point_count == 0 || manifold.body_a == 0) continue;
-        manifold.demand = engine::make_demand(2, 0, engine::k_tall_height);
-        break;
+/// Other numbers shake what stands, and so change what it asks for: with limits at 20 contacts and at three masses
+/// alone a tower of 23 boxes never came to rest.
+TEST(Multirate, a_tower_keeps_the_rates_that_it_has) {
+    for (const uint height : {19u, 20u, 21u, 22u, 23u, 24u, 26u, 36u, 50u}) {
+        SCOPED_TRACE(height);
+        Settings settings;
+        settings.max_substeps = 32;
+        EngineRun run(options_on(DeviceKind::Cpu), tower_in_large_world(height), settings);
+        run.simulation.reserve_pairs(8192);
+        run.least_multirate = height;
+        uint graphs = 0;
+        for (uint step = 0; step < 400; ++step) {
+            run.step_in_many_launches();
+            if (step >= 300) graphs += run.counter(engine::k_counter_graph_due) != 0 ? 1 : 0;
+        }
+        EXPECT_EQ(run.counter(engine::k_counter_multirate_islands), 1u);
+        EXPECT_EQ(graphs, 0u);
+        const auto velocities = run.read<engine::BodyVelocity>(BufferId::Velocities, height + 1);
+        for (uint i = 1; i <= height; ++i)
+            EXPECT_LT(glm::length(velocities[i].linear), 5e-4f) << "box " << i;
     }
-    run.simulation.write(BufferId::OldManifolds, 0, std::span<const engine::Manifold>(manifolds));
-    run.step_in_many_launches();
-    EXPECT_EQ(count_contacts(run).slow, 0u);
-    EXPECT_EQ(count_contacts(run).beside_faster, 0u);
-    EXPECT_EQ(run.counter(engine::k_counter_graph_due), 1u) << "it is no tall column after all";
-    run.step_in_many_launches();
-    EXPECT_GT(count_contacts(run).slow, 500u);
-    EXPECT_EQ(run.counter(engine::k_counter_graph_due), 0u);
+}
+
+TEST(Multirate, a_foot_rate_is_told_upwards_and_kept) {
+    Settings settings;
+    settings.max_substeps = 32;
+    const engine::StepPlan plan{.least_substeps = 8, .most_substeps = 32};
+    const engine::Parameters p = engine::make_parameters(settings, plan);
+    const engine::Standing storey{true, true}, leaning{true, false};
+    const auto demand = [](uint substeps, uint rate, uint height) {
+        return engine::make_demand(substeps, 0, rate, height);
+    };
+    EXPECT_EQ(engine::foot_rate(demand(12, 0, 20), storey, 0, 0, p), 2u) << "a foot itself";
+    EXPECT_EQ(engine::foot_rate(demand(12, 0, 19), storey, 0, 0, p), 0u);
+    EXPECT_EQ(engine::foot_rate(demand(12, 2, 15), storey, 0, 0, p), 2u) << "it has been one";
+    EXPECT_EQ(engine::foot_rate(demand(12, 2, 14), storey, 0, 0, p), 0u);
+    EXPECT_EQ(engine::foot_rate(demand(8, 0, 5), storey, 3, 40, p), 3u) << "above one that asks for 32";
+    EXPECT_EQ(engine::foot_rate(demand(8, 0, 5), storey, 3, 39, p), 0u) << "the body below carries too little";
+    EXPECT_EQ(engine::foot_rate(demand(8, 3, 5), storey, 3, 24, p), 3u);
+    EXPECT_EQ(engine::foot_rate(demand(8, 3, 5), storey, 2, 24, p), 2u) << "the foot asks for less";
+    EXPECT_EQ(engine::foot_rate(demand(8, 0, 5), leaning, 3, 100, p), 0u);
+    EXPECT_EQ(engine::multirate_substeps(8, 0, p), 8u);
+    EXPECT_EQ(engine::multirate_substeps(8, 3, p), 32u);
+    EXPECT_EQ(engine::multirate_substeps(24, 2, p), 32u);
+    const engine::StepPlan lowered{.least_substeps = 8, .most_substeps = 16};
+    EXPECT_EQ(engine::multirate_substeps(8, 3, engine::make_parameters(settings, lowered)), 16u);
 }
 
 TEST(Multirate, where_the_most_is_no_double_of_the_least_islands_have_one_number) {

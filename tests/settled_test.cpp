@@ -225,7 +225,7 @@ TEST(KeptIsland, says_of_a_sleeper_what_its_island_asked_for) {
     using namespace engine;
     const uint least = 5000;
     const auto keep = [&](uint size, uint parts, bool may_be_multirate) {
-        return keep_island(island_at_rest(size, parts, least, may_be_multirate), size, 9, 24);
+        return keep_island(island_at_rest(size, parts, least, may_be_multirate), 9, 24);
     };
     EXPECT_FALSE(island_at_rest(1024, 0, least, true).in_parts);
     EXPECT_TRUE(island_at_rest(1025, 0, least, true).in_parts);
@@ -233,14 +233,12 @@ TEST(KeptIsland, says_of_a_sleeper_what_its_island_asked_for) {
     EXPECT_EQ(own_substeps_kept(keep(2000, 0, true)), 9u);
     EXPECT_EQ(substeps_kept(keep(2000, 0, true)), 24u);
     EXPECT_EQ(substeps_kept(keep(6000, 0, true)), 9u) << "there each contact has its own";
-    EXPECT_EQ(substeps_kept(keep(6000 | k_tall, 0, true)), 24u) << "but where a column is tall";
     EXPECT_EQ(substeps_kept(keep(6000, 0, false)), 24u);
     EXPECT_EQ(parts_said(keep(2000, 0, true)), k_has_part);
     EXPECT_EQ(parts_said(keep(6000, 0, false)), k_has_part | k_has_many);
     EXPECT_EQ(parts_said(keep(3, k_has_part | k_has_many, true)), k_has_part | k_has_many) << "it stays so";
     EXPECT_TRUE(island_at_rest(3, k_has_part | k_has_many, least, true).multirate);
-    EXPECT_FALSE(island_at_rest(3 | k_tall, k_has_part | k_has_many, least, true).multirate);
-    EXPECT_NE(keep(2000 | k_tall, 0, true) & k_kept_tall, 0u);
+    EXPECT_FALSE(island_at_rest(2000 | (5u << k_foot_rate_shift), 0, least, true).many) << "no rate is a size";
     Parameters p{};
     p.rest_steps = 1000;
     EXPECT_TRUE(is_calm(with_calm({}, keep(2000, 0, true)), p)) << "for however long";

@@ -455,9 +455,10 @@ TEST_F(SnapshotFile, refuses_loads_that_none_can_have) {
         EXPECT_NE(error_with(weights, load).find(wrong_load), std::string::npos) << load;
         EXPECT_NE(error_with(lasting, load).find(wrong_load), std::string::npos) << load;
     }
-    EXPECT_EQ(error_with(demand, engine::make_demand(8, engine::k_growing + 7, 1)), "no error");
-    EXPECT_NE(error_with(demand, engine::make_demand(8, engine::k_growing + 9, 1)).find(wrong_load), std::string::npos);
-    EXPECT_NE(error_with(demand, engine::make_demand(1001, 0, 1)).find("not one of its bodies"), std::string::npos);
+    EXPECT_EQ(error_with(demand, engine::make_demand(8, engine::k_growing + 7, 0, 1)), "no error");
+    EXPECT_NE(error_with(demand, engine::make_demand(8, engine::k_growing + 9, 0, 1)).find(wrong_load),
+              std::string::npos);
+    EXPECT_NE(error_with(demand, engine::make_demand(1001, 0, 0, 1)).find("not one of its bodies"), std::string::npos);
 }
 
 } // namespace talus::tests

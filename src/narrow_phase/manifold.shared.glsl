@@ -217,7 +217,7 @@ inline Separations make_separations(ContactGeometry g)
 // For bodies that the caller has just put together: the load is not known yet. Without gravity none builds up.
 inline Manifold begin_trial(Manifold manifold, Parameters p)
 {
-    if (dot3(p.gravity, p.gravity) != 0.0f) manifold.demand = make_demand(p.most_substeps, k_trial, k_unknown_height);
+    if (dot3(p.gravity, p.gravity) != 0.0f) manifold.demand = make_demand(p.most_substeps, k_trial, 0u, k_unknown_height);
     return manifold;
 }
 
@@ -276,6 +276,6 @@ inline Manifold carry_over(Manifold manifold, Manifold old, Parameters p)
     manifold.weights = old.weights;
     manifold.lasting_weights = old.lasting_weights;
     uint substeps = min(substeps_of(old.demand), p.most_substeps); // which the caller may have lowered
-    manifold.demand = make_demand(substeps, idle_steps_of(old.demand), height_of(old.demand));
+    manifold.demand = make_demand(substeps, idle_steps_of(old.demand), foot_rate_of(old.demand), height_of(old.demand));
     return manifold;
 }

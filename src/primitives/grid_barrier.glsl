@@ -4,7 +4,7 @@
 // Before this file the kernel declares Counters, and defines uint meeting_groups(): how many groups meet, the first ones
 // of the launch.
 
-// 0: all groups that have arrived; 1: what was counted; 2: for the kernel
+// 0: all groups that have arrived; 1: what was counted; the others are for kernels
 layout(std430) coherent volatile buffer Arrivals { uint arrivals[]; };
 
 uint meetings = 0u;

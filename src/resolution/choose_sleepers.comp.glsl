@@ -39,6 +39,7 @@ void main()
     }
     IslandAtRest at_rest = island_at_rest(island_sizes[island], island_starts[island], args.x, args.y == 1u);
     uint own_substeps = substeps[body];
+    if (at_rest.multirate) own_substeps = multirate_substeps(own_substeps, foot_rate_at(island_sizes[body]), parameters);
     if (is_part) own_substeps = max(own_substeps, own_substeps_kept(unpack(rests[body]).calm));
     bool awake = (island_fill[island] & k_awake) != 0u;
     if (at_rest.in_parts)
@@ -48,5 +49,5 @@ void main()
     else if (is_part)
         island_groups[body] = k_kept_island; // as it is
     else
-        island_groups[body] = at_rest.in_parts ? keep_island(at_rest, island_sizes[island], own_substeps, substeps[island]) : 0u;
+        island_groups[body] = at_rest.in_parts ? keep_island(at_rest, own_substeps, substeps[island]) : 0u;
 }

@@ -35,7 +35,7 @@ inline ContactRate find_rate(uint demand, BodyInertia a, BodyInertia b, Paramete
     if (!any_lane(multirate)) return rate;
     uint ticks = choose(pushes_a, ticks_of(a.substeps, a.traits), ticks_of(b.substeps, b.traits));
     uint slower = min(choose(pushes_a, a.substeps, ticks), choose(pushes_b, b.substeps, ticks));
-    uint own = min(doubled_substeps(demand, p), slower);
+    uint own = min(multirate_substeps(substeps_of(demand), foot_rate_of(demand), p), slower);
     rate.substeps = choose_active(multirate, own, rate.substeps);
     rate.trait = choose_active(multirate, slowness_trait(ticks, own), 0u);
     return rate;
@@ -49,7 +49,7 @@ inline ContactConstraint begin_constraint(Manifold manifold, uint manifold_index
     vec3 none = vec3(0.0f, 0.0f, 0.0f);
     vec4 no_points = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     uint traits = traits_of_constraint(inertia_a, inertia_b, colour);
-    ContactRate rate = find_rate(substeps_of(manifold.demand), inertia_a, inertia_b, p);
+    ContactRate rate = find_rate(manifold.demand, inertia_a, inertia_b, p);
     ContactConstraint c;
     c.body_a = manifold.body_a;
     c.body_b = manifold.body_b;
@@ -176,7 +176,8 @@ inline Standing find_standing(vec3 normal, vec3 centre_a, vec3 centre_b, vec3 ga
     return standing;
 }
 
-inline uint body_above(Standing standing, uint body_a, uint body_b) { return standing.b_below ? body_a : body_b; }
+inline uint body_above(Standing standing, uint body_a, uint body_b) { return choose(standing.b_below, body_a, body_b); }
+inline uint body_below(Standing standing, uint body_a, uint body_b) { return choose(standing.b_below, body_b, body_a); }
 
 // What a manifold tells the body below it, see load.shared.glsl.
 struct LoadBelow {
@@ -190,9 +191,33 @@ inline LoadBelow load_below(Manifold manifold, Standing standing, float inverse_
     float inverse_mass_above = choose(standing.b_below, inverse_mass_a, inverse_mass_b);
     uint mass = told_mass(manifold.weights, inverse_mass_below, inverse_mass_above);
     LoadBelow load;
-    load.body = choose(standing.b_below, manifold.body_b, manifold.body_a);
+    load.body = body_below(standing, manifold.body_a, manifold.body_b);
     load.mass = choose(inverse_mass_below > 0.0f && standing.is_storey, mass, 0u);
     return load;
+}
+
+// What a manifold tells the body above it, see multirate.shared.glsl.
+struct ToldFoot {
+    uint body;
+    uint rate; // 0: it tells nothing
+};
+
+inline ToldFoot told_foot(Manifold manifold, Standing standing)
+{
+    ToldFoot foot;
+    foot.body = body_above(standing, manifold.body_a, manifold.body_b);
+    foot.rate = choose(standing.is_storey, foot_rate_of(manifold.demand), 0u);
+    return foot;
+}
+
+// Of a manifold with this demand. `told`: what the body below has been told, which counts where that carries enough to be part of
+// the column, `mass` being its k_told_mass.
+inline uint foot_rate(uint demand, Standing standing, uint told, uint mass, Parameters p)
+{
+    bool had_rate = foot_rate_of(demand) > 0u;
+    uint of_column = choose(standing.is_storey && mass >= choose(had_rate, k_enough_to_stay, k_enough_to_join), told, 0u);
+    bool is_tall = height_of(demand) >= choose(had_rate, k_height_to_stay, k_tall_height);
+    return max(of_column, choose(is_tall, 1u + doublings_for(substeps_of(demand), p), 0u));
 }
 
 // Of a manifold with this load. What the body above has been told: see load.shared.glsl. Without gravity nothing says what
@@ -238,7 +263,7 @@ inline Manifold follow_load(Manifold manifold, float weights, float yielding, ui
     }
     manifold.weights = mean;
     manifold.lasting_weights = next_lasting_load(manifold.lasting_weights, mean, on_trial);
-    manifold.demand = make_demand(substeps, idle_steps, height);
+    manifold.demand = make_demand(substeps, idle_steps, foot_rate_of(manifold.demand), height);
     return manifold;
 }
 
@@ -256,9 +281,10 @@ inline float yielding_of(vec4 normal_impulse, vec4 normal_mass, float inverse_ma
     return on_a_face > 0.0f ? max(yielding, 1.0f) : 1.0f;
 }
 
-// Impulses of the whole step, and what follows from their load. What the body above has been told: see column_height.
+// Impulses of the whole step, and what follows from their load. `mass_told`, `height_told`: of the body above, see column_height;
+// `mass_below`, `foot_told`: of the one below, see foot_rate.
 inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing standing, vec4 normal_impulse, uint mass_told,
-                                uint height_told, Parameters p)
+                                uint height_told, uint mass_below, uint foot_told, Parameters p)
 {
     precise float whole = float(substeps_of_contact(c.counts));
     precise vec3 friction = c.friction_impulse * whole;
@@ -270,5 +296,9 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing
     float yielding = is_multirate(c.traits)
                          ? yielding_of(normal_impulse, c.normal_mass, max(c.inverse_mass_a, c.inverse_mass_b))
                          : 1.0f;
-    return follow_load(manifold, weights, yielding, height, is_against_static(c.traits), p);
+    manifold = follow_load(manifold, weights, yielding, height, is_against_static(c.traits), p);
+    uint demand = manifold.demand;
+    uint rate = foot_rate(demand, standing, foot_told, mass_below, p);
+    manifold.demand = make_demand(substeps_of(demand), idle_steps_of(demand), rate, height_of(demand));
+    return manifold;
 }

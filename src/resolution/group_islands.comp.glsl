@@ -41,7 +41,7 @@ void main()
     }
     uint size = island_size(island_sizes[island]);
     bool multirate =
-        args.w == 1u ? (substeps[body] & k_multirate) != 0u : is_multirate_island(island_sizes[island], args.z);
+        args.w == 1u ? (substeps[body] & k_multirate) != 0u : size >= args.z;
     uint group = args.x == 1u && !multirate ? island_group(size, island_starts[island], args.y == 1u) : k_launched;
     uint place = island_starts[island] + (atomicAdd(island_fill[island], 1u) & k_fill_count);
     island_groups[body] = group;
@@ -52,8 +52,8 @@ void main()
     if (multirate) {
         if (body == island) atomicAdd(counters[k_counter_multirate_islands], 1u);
         // The island's own body has the most: others read it.
-        uint own = doubled_substeps(number_of_substeps(substeps[body]), parameters);
-        substeps[body] = k_multirate | (body == island ? ticks : own);
+        uint own = multirate_substeps(number_of_substeps(substeps[body]), foot_rate_at(island_sizes[body]), parameters);
+        substeps[body] = k_multirate | (body == island ? ticks : min(own, ticks)); // a rate is told a step later
     } else if (body != island) {
         substeps[body] = of_island;
     }

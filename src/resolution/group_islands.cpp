@@ -20,8 +20,7 @@ static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
         }
         const uint place = state.island_starts[island] + (state.island_fill[island]++ & k_fill_count);
         const uint size = island_size(state.island_sizes[island]);
-        const bool multirate = launch.args[3] == 1 ? (state.substeps[body] & k_multirate) != 0
-                                                   : is_multirate_island(state.island_sizes[island], launch.args[2]);
+        const bool multirate = launch.args[3] == 1 ? (state.substeps[body] & k_multirate) != 0 : size >= launch.args[2];
         if (launch.args[0] == 1 && !multirate)
             state.island_groups[body] = island_group(size, state.island_starts[island], launch.args[1] == 1);
         if (body == island && is_single(size) && !multirate) ++state.counters[k_counter_singles];
@@ -31,8 +30,10 @@ static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
         const uint ticks = launch.args[2] != k_none ? doubled_substeps(of_island, p) : of_island;
         if (multirate) {
             if (body == island) ++state.counters[k_counter_multirate_islands];
-            const uint own = doubled_substeps(number_of_substeps(state.substeps[body]), p);
-            state.substeps[body] = k_multirate | (body == island ? ticks : own);
+            const uint own =
+                multirate_substeps(number_of_substeps(state.substeps[body]), foot_rate_at(state.island_sizes[body]), p);
+            state.substeps[body] =
+                k_multirate | (body == island ? ticks : min(own, ticks)); // a rate is told a step later
         } else {
             state.substeps[body] = of_island;
         }

@@ -5,34 +5,37 @@
 // is its root, whoever comes first: in a small world the lowest slot, in a large one the first by order_of_root.
 
 // Manifolds are sorted by what solves them, and within it by colour: by island in a small world, by group in a large one. What
-// launches solve comes first; of each of its colours first what is fast in a multirate island, so that workers can share that
-// evenly. Where islands are not told apart, and no group solves any, the key is the colour itself, which is less than all of
-// these. A world of 59,000 bodies has keys of 16 bits, two passes of the sort.
+// launches solve comes first; of each of its colours first what is fast in a multirate island, by its slowness, so that workers
+// can share each rate evenly. Where islands are not told apart, and no group solves any, the key is the colour itself, which is
+// less than all of these. A world of 59,000 bodies has keys of 16 bits, two passes of the sort.
 const uint k_first_launched_key = k_inactive_colour + 1u;
-const uint k_first_group_key = k_first_launched_key + 2u * k_colours_of_key;
+const uint k_first_group_key = k_first_launched_key + k_slownesses * k_colours_of_key;
 
-inline uint launched_key(uint colour, bool fast) { return k_first_launched_key + 2u * colour + (fast ? 0u : 1u); }
+inline uint launched_key(uint colour, uint its_slowness) { return k_first_launched_key + k_slownesses * colour + its_slowness; }
+
+// The lowest key of a colour that launches solve. `apart`: islands are told apart.
+inline uint first_key(uint colour, bool apart) { return choose(apart, launched_key(colour, 0u), colour); }
+// Of ColourOffsets: where what has the slowness r or a lesser one ends.
+inline uint rate_end_word(uint colour, uint r) { return k_rate_ends + r * k_max_colours + colour; }
+
 inline uint manifold_key(uint island, uint colour) { return k_first_group_key + island * k_colours_of_key + colour; }
 
 inline uint colour_of_key(uint key)
 {
     if (key < k_first_launched_key) return key;
-    return key < k_first_group_key ? (key - k_first_launched_key) / 2u : (key - k_first_group_key) % k_colours_of_key;
+    return key < k_first_group_key ? (key - k_first_launched_key) / k_slownesses : (key - k_first_group_key) % k_colours_of_key;
 }
 
 inline uint island_of_key(uint key) { return (key - k_first_group_key) / k_colours_of_key; }
 
 // ---- large worlds ----
 
-const uint k_tall = 0x40000000u; // in IslandSizes, beside a count of bodies: the island has a tall column
+// In IslandSizes, above a count of the island's bodies: the highest foot rate of the contacts of the body itself, see
+// multirate.shared.glsl.
+const uint k_foot_rate_shift = 29u;
 
-inline uint island_size(uint word) { return word & (k_tall - 1u); }
-
-// Whether each contact has sub-steps of its own. A tall column has to be as stiff above as it is at its foot.
-inline bool is_multirate_island(uint word, uint least_size)
-{
-    return island_size(word) >= least_size && (word & k_tall) == 0u;
-}
+inline uint island_size(uint word) { return word & ((1u << k_foot_rate_shift) - 1u); }
+inline uint foot_rate_at(uint word) { return word >> k_foot_rate_shift; }
 
 // A permutation of the slots, without a pattern: things next to each other often have slots in a row, and with the lowest slot as
 // the root the way to it would be as long as the row.
@@ -57,10 +60,9 @@ const uint k_join_to_sleep = 1u;
 const uint k_join_awake = 2u;
 
 // What is kept of a large island for a body that sleeps as a part of it, in BodyRest::calm: the sub-steps that the body's contacts ask
-// for, and, unless each had its own, those that the whole island did; whether it had a tall column, and so many bodies that it might be
-// multirate. It counts as calm for however long.
+// for, of a multirate island those that it has; and, unless each had its own, those that the whole island did; and whether it had so
+// many bodies that it might be multirate. It counts as calm for however long.
 const uint k_kept_island = 0x80000000u;
-const uint k_kept_tall = 0x40000000u;
 const uint k_kept_many = 0x20000000u;
 const uint k_kept_shift = 12u; // of the island's sub-steps
 
@@ -74,7 +76,7 @@ inline bool keeps_anew(uint kept, bool had_part, bool other_pairs)
 inline uint own_substeps_kept(uint kept) { return kept & ((1u << k_kept_shift) - 1u); }
 inline uint substeps_kept(uint kept) { return (kept >> k_kept_shift) & ((1u << k_kept_shift) - 1u); }
 
-// In IslandStarts while it is asked who sleeps: what parts that have been reached say of an island, besides its sub-steps and columns.
+// In IslandStarts while it is asked who sleeps: what parts that have been reached say of an island, besides its sub-steps.
 const uint k_has_part = 1u;
 const uint k_has_many = 2u;
 
@@ -83,7 +85,7 @@ inline uint parts_said(uint kept) { return k_has_part | ((kept & k_kept_many) !=
 // An island as it is to be known who sleeps of it. `size`: of IslandSizes.
 struct IslandAtRest {
     bool in_parts;  // what rests may sleep while other parts of it move: a small one is solved as a whole, and at once
-    bool many;      // it may be multirate
+    bool many;      // so many bodies that it may be multirate
     bool multirate;
 };
 
@@ -92,14 +94,14 @@ inline IslandAtRest island_at_rest(uint size, uint parts, uint least_multirate, 
     IslandAtRest island;
     island.in_parts = island_size(size) > k_most_single || parts != 0u;
     island.many = island_size(size) >= least_multirate || (parts & k_has_many) != 0u;
-    island.multirate = island.many && may_be_multirate && (size & k_tall) == 0u;
+    island.multirate = island.many && may_be_multirate;
     return island;
 }
 
-inline uint keep_island(IslandAtRest island, uint size, uint own_substeps, uint substeps)
+inline uint keep_island(IslandAtRest island, uint own_substeps, uint substeps)
 {
-    return k_kept_island | ((size & k_tall) != 0u ? k_kept_tall : 0u) | (island.many ? k_kept_many : 0u) |
-           ((island.multirate ? own_substeps : substeps) << k_kept_shift) | own_substeps;
+    return k_kept_island | (island.many ? k_kept_many : 0u) | ((island.multirate ? own_substeps : substeps) << k_kept_shift) |
+           own_substeps;
 }
 
 // What prepare_bodies is told, a bit each.

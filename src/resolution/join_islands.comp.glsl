@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: joins the islands of two bodies that touch, by hanging one root below the other
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
-// sub-steps of the manifold that asks for most. Where it is asked who sleeps, contacts between the quiet are left alone.
+// sub-steps of the manifold that asks for most, and notes the highest foot rate. Where it is asked who sleeps, contacts between the
+// quiet are left alone.
 // args.x: k_join_*. The awake ones are those of listed pairs.
 // Reads: Counters, Manifolds; Pairs, where it is asked who sleeps; ManifoldOrder, the list.
-// Writes: Islands; Substeps; IslandSizes, that a column is tall; IslandFill, what is touched, and which parts are reached.
+// Writes: Islands; Substeps; IslandSizes (foot rates); IslandFill, what is touched, and which parts are reached.
 // Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_graph.
 // Overflow: none.
@@ -60,6 +61,13 @@ void note(uint body, uint what)
     if ((island_fill[body] & what) == 0u) atomicOr(island_fill[body], what);
 }
 
+void ask_for_substeps(uint body, uint demand)
+{
+    atomicMax(substeps[body], substeps_of(demand));
+    if (foot_rate_at(island_sizes[body]) < foot_rate_of(demand))
+        atomicMax(island_sizes[body], foot_rate_of(demand) << k_foot_rate_shift);
+}
+
 bool is_quiet(uint body) { return (island_fill[body] & k_quiet) != 0u; }
 
 void main()
@@ -79,9 +87,8 @@ void main()
         if (is_quiet(manifold.body_b)) note(manifold.body_b, k_reached);
     }
     if (args.x != k_join_awake) {
-        if (pushes_a) atomicMax(substeps[manifold.body_a], substeps_of(manifold.demand));
-        if (pushes_b) atomicMax(substeps[manifold.body_b], substeps_of(manifold.demand));
-        if (pushes_a && pushes_b && tallness(manifold.demand) == 1u) island_sizes[manifold.body_a] = k_tall;
+        if (pushes_a) ask_for_substeps(manifold.body_a, manifold.demand);
+        if (pushes_b) ask_for_substeps(manifold.body_b, manifold.demand);
     }
     if (pushes_a && pushes_b) join(manifold.body_a, manifold.body_b);
 }

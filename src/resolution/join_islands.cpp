@@ -7,6 +7,11 @@
 
 namespace talus::engine {
 
+static void ask_for_substeps(CpuState& state, uint body, uint demand) {
+    state.substeps[body] = max(state.substeps[body], substeps_of(demand));
+    state.island_sizes[body] = max(state.island_sizes[body], foot_rate_of(demand) << k_foot_rate_shift);
+}
+
 static void join_islands_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& islands = state.islands;
     Array<uint>& fill = state.island_fill;
@@ -25,9 +30,8 @@ static void join_islands_on_cpu(CpuState& state, const Launch& launch) {
             if (is_quiet(b)) fill[b] |= k_reached;
         }
         if (launch.args[0] != k_join_awake) {
-            if (pushes_a) state.substeps[a] = max(state.substeps[a], substeps_of(manifold.demand));
-            if (pushes_b) state.substeps[b] = max(state.substeps[b], substeps_of(manifold.demand));
-            if (pushes_a && pushes_b && tallness(manifold.demand) == 1) state.island_sizes[a] = k_tall;
+            if (pushes_a) ask_for_substeps(state, a, manifold.demand);
+            if (pushes_b) ask_for_substeps(state, b, manifold.demand);
         }
         if (pushes_a && pushes_b) join_islands_of(islands, a, b, order_of_root);
     }

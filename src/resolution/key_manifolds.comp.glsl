@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: its manifold's place in the order of the solve, by group, then by colour, and with what is fast in a
-// multirate heap first. One between sleepers comes last, as those that do not touch.
+// multirate island first. One between sleepers comes last, as those that do not touch.
 // args.x: 1 where ManifoldOrder lists the pairs that the graph is made of.
 // Reads: IslandGroups, Islands, Substeps, Manifolds; ManifoldKeys, the colour of each pair.
 // Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs
@@ -48,8 +48,10 @@ void main()
         keys[entry] = manifold_key(group, colour);
         return;
     }
-    bool fast = colour < k_first_hub_colour && is_fast(substeps[body], substeps_of(manifold.demand), parameters);
-    keys[entry] = launched_key(colour, fast);
+    bool in_order = (substeps[body] & k_multirate) != 0u && colour < k_first_hub_colour;
+    uint its_substeps = multirate_substeps(substeps_of(manifold.demand), foot_rate_of(manifold.demand), parameters);
+    keys[entry] =
+        launched_key(colour, choose(in_order, slowness_at(counters[k_counter_launched_substeps], its_substeps), 0u));
     if (colour < k_first_hub_colour) raise_counter(k_counter_launched_colours, colours_down_to(colour));
     if (colour == k_overflow_colour) atomicAdd(counters[k_counter_launched_overflow], 1u);
 }

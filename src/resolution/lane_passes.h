@@ -47,6 +47,7 @@ const LanePasses& lane_passes();
 
 /// See load_below.
 void tell_load(const CpuState&, const LoadBelow&, uint height);
+void tell_foot(const CpuState&, const ToldFoot&);
 
 /// Items in batches, as many in each as there are lanes.
 class Batches {

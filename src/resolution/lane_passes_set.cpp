@@ -68,6 +68,11 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
         const int lane = __builtin_ctz(tells);
         tell_load(state, {load.body.v[lane], load.mass.v[lane]}, height.v[lane]);
     }
+    const ToldFoot foot = told_foot(manifold, standing);
+    for (std::uint32_t tells = lanes & bits_of(foot.rate != 0u); tells != 0; tells &= tells - 1) {
+        const int lane = __builtin_ctz(tells);
+        tell_foot(state, {foot.body.v[lane], foot.rate.v[lane]});
+    }
 
     const Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);

@@ -123,9 +123,12 @@ inline float next_lasting_load(float lasting, float mean, bool on_trial)
 // else it is the end load of a new one. So the height of a tower is known from the top down, one contact a step. What
 // buckles a column is its load times the square of its height: where a load joins from the side, as beside a hole in a
 // wall, the part above that carries less counts as that much lower. In ToldLoads each body has two words: k_told_mass,
-// a sum, and k_told_height, a maximum.
+// a sum, and k_told_height, a maximum. Behind those of all each has one more: the highest foot rate that it has been told
+// (multirate.shared.glsl).
 
 const uint k_unknown_height = 255u; // also of all that are higher
+
+inline uint told_foot_word(uint body, uint body_count) { return k_told_words * body_count + body; }
 
 const uint k_own_mass = 16u; // of what is told
 const uint k_enough_told = 3u * k_own_mass;
@@ -150,27 +153,23 @@ inline uint height_of_column(uint mass_told, uint height_told, uint carried)
     return min(uint(height + 1.5f), k_unknown_height);
 }
 
-// Manifold::demand: the sub-steps that a manifold asks for, for how many steps in a row fewer would have done (with
-// k_growing and k_trial, what else it waits for), and the height of the column.
-inline uint make_demand(uint substeps, uint idle_steps, uint height)
+// Manifold::demand: the sub-steps that a manifold asks for, up to 1,000; for how many steps in a row fewer would have done (with
+// k_growing and k_trial, what else it waits for); the rate of the foot below it, see multirate.shared.glsl; and the height of the
+// column.
+inline uint make_demand(uint substeps, uint idle_steps, uint foot_rate, uint height)
 {
-    return substeps | idle_steps << 12u | height << 24u;
+    return substeps | idle_steps << 10u | foot_rate << 21u | height << 24u;
 }
 
-inline uint substeps_of(uint demand) { return demand & 0xfffu; }
-inline uint idle_steps_of(uint demand) { return (demand >> 12u) & 0xfffu; }
+inline uint substeps_of(uint demand) { return demand & 0x3ffu; }
+inline uint idle_steps_of(uint demand) { return (demand >> 10u) & 0x7ffu; }
+inline uint foot_rate_of(uint demand) { return (demand >> 21u) & 7u; }
 inline uint height_of(uint demand) { return demand >> 24u; }
-
-// A tall column has to be as stiff above as it is at its foot: see multirate.shared.glsl. Heaps have none of this height.
-const uint k_tall_height = 20u; // contacts
-
-// 1 in a tall column, else 0.
-inline uint tallness(uint demand) { return min(height_of(demand) / k_tall_height, 1u); }
 
 // Whether the same islands with the same sub-steps follow from both. An island has as many as the contact of it that asks for
 // most, `of_island`, and what others ask for makes no difference; but it does where some island of the world may be multirate.
 inline bool asks_alike(uint demand, uint other, uint of_island, bool may_be_multirate)
 {
-    if (may_be_multirate) return substeps_of(demand) == substeps_of(other) && tallness(demand) == tallness(other);
+    if (may_be_multirate) return substeps_of(demand) == substeps_of(other) && foot_rate_of(demand) == foot_rate_of(other);
     return substeps_of(demand) == substeps_of(other) || max(substeps_of(demand), substeps_of(other)) < of_island;
 }

@@ -37,7 +37,6 @@ uint root_of(uint body)
 void stand_for_island(uint island, uint kept)
 {
     atomicMax(substeps[island], substeps_kept(kept));
-    if ((kept & k_kept_tall) != 0u) atomicOr(island_sizes[island], k_tall);
     uint said = parts_said(kept);
     if ((island_starts[island] & said) != said) atomicOr(island_starts[island], said);
 }
@@ -55,7 +54,6 @@ void main()
     if (keeps_awake && (island_fill[island] & k_awake) == 0u) atomicOr(island_fill[island], k_awake);
     bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
     atomicAdd(island_sizes[island], is_hub ? 1u + k_most_single : 1u);
-    if (body != island && (island_sizes[body] & k_tall) != 0u) atomicOr(island_sizes[island], k_tall);
     if (is_part)
         stand_for_island(island, unpack(rests[body]).calm);
     else if (args.x == 0u)

@@ -9,7 +9,6 @@ namespace talus::engine {
 
 static void stand_for_island(CpuState& state, uint island, uint kept) {
     state.substeps[island] = max(state.substeps[island], substeps_kept(kept));
-    if ((kept & k_kept_tall) != 0) state.island_sizes[island] |= k_tall;
     state.island_starts[island] |= parts_said(kept);
 }
 
@@ -24,7 +23,6 @@ static void measure_islands_on_cpu(CpuState& state, const Launch& launch) {
         if ((state.island_fill[body] & (k_restless | k_touched)) != 0) state.island_fill[island] |= k_awake;
         const bool is_hub = state.body_colours[body_word(body, k_hub_word)] != 0;
         state.island_sizes[island] += is_hub ? 1 + k_most_single : 1;
-        state.island_sizes[island] |= state.island_sizes[body] & k_tall;
         if (is_part)
             stand_for_island(state, island, state.rests[body].calm);
         else if (!asks_who_sleeps)

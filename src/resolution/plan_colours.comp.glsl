@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One group, an invocation for each colour: where it begins, and where what is fast in it ends; whether the colours and the
+// One group, an invocation for each colour: where it begins, and where what has a rate in it ends; whether the colours and the
 // sub-steps fit, and the launches of the resolution. args.x: 1 where what is launched has been counted apart. args.y: 0 where a
 // work group solves each island, so that colours and sub-steps need no launches; hubs cannot be solved there. args.z: 1 where the
 // graph has not been made, as it should be the last step's.
@@ -41,11 +41,13 @@ uint first_of(uint key)
 void find_offsets(bool is_new, bool apart)
 {
     for (uint colour = gl_LocalInvocationID.x; colour < k_colour_offsets; colour += gl_WorkGroupSize.x) {
-        offsets[colour] = is_new ? first_of(apart ? launched_key(colour, true) : colour) : colour_offsets[colour];
+        offsets[colour] = is_new ? first_of(first_key(colour, apart)) : colour_offsets[colour];
         if (is_new) colour_offsets[colour] = offsets[colour];
     }
+    if (!is_new || counters[k_counter_multirate_islands] == 0u) return;
     uint colour = gl_LocalInvocationID.x;
-    if (is_new) colour_offsets[k_fast_ends + colour] = apart ? first_of(launched_key(colour, false)) : offsets[colour];
+    for (uint r = 0u; r < k_most_doublings; ++r)
+        colour_offsets[rate_end_word(colour, r)] = first_of(launched_key(colour, r + 1u));
 }
 
 void main()
@@ -91,6 +93,7 @@ void main()
     counters[k_counter_launched_overflow] = overflow_count;
     counters[k_counter_launched_manifolds] = launches ? offsets[k_overflow_colour + 1u] - offsets[0] : 0u;
     arrivals[0] = 0u; // of solve_persistent
+    arrivals[k_all_fast_bodies] = 0u;
     counters[k_counter_graph_was_due] = due ? 1u : 0u;
     bool is_next_due = on == 0u || made_for == k_due_twice;
     counters[k_counter_graph_due] = is_next_due ? 1u : 0u;

@@ -8,16 +8,17 @@
 
 namespace talus::engine {
 
-/// Where each colour begins, and what is fast in it ends, of the manifolds that no work group solves. `apart`: they
+/// Where each colour begins, and what has a rate in it ends, of the manifolds that no work group solves. `apart`: they
 /// have keys of their own.
 static void find_offsets(CpuState& state, bool apart) {
     const uint *keys = state.manifold_keys.data, *end = keys + state.counters[k_counter_graph_pairs];
     const auto first_of = [&](uint key) { return static_cast<uint>(std::lower_bound(keys, end, key) - keys); };
     for (uint colour = 0; colour < k_colour_offsets; ++colour)
-        state.colour_offsets[colour] = first_of(apart ? launched_key(colour, true) : colour);
+        state.colour_offsets[colour] = first_of(first_key(colour, apart));
+    if (state.counters[k_counter_multirate_islands] == 0) return;
     for (uint colour = 0; colour < k_max_colours; ++colour)
-        state.colour_offsets[k_fast_ends + colour] =
-            apart ? first_of(launched_key(colour, false)) : state.colour_offsets[colour];
+        for (uint r = 0; r < k_most_doublings; ++r)
+            state.colour_offsets[rate_end_word(colour, r)] = first_of(launched_key(colour, r + 1));
 }
 
 static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
@@ -58,6 +59,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_launched_overflow] = overflow_count;
     counters[k_counter_launched_manifolds] = launches ? offsets[k_overflow_colour + 1] - offsets[0] : 0;
     state.arrivals[0] = 0;
+    state.arrivals[k_all_fast_bodies] = 0;
     counters[k_counter_graph_was_due] = due ? 1 : 0;
     const bool is_next_due = on == 0 || made_for == k_due_twice;
     counters[k_counter_graph_due] = is_next_due ? 1 : 0;

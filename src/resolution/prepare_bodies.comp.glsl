@@ -14,6 +14,7 @@
 #include "resolution/sleep.shared.glsl"
 #include "resolution/body.shared.glsl"
 #include "resolution/multirate.shared.glsl"
+#include "resolution/load.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 
@@ -63,6 +64,7 @@ bool prepare(uint body)
     if (args.z == 1u) warm_starts[hits_place(body, parameters.body_count)] = pack(no_warm_start()); // all zero, as no_hits
     told_loads[k_told_words * body + k_told_mass] = 0u;
     told_loads[k_told_words * body + k_told_height] = 0u;
+    told_loads[told_foot_word(body, parameters.body_count)] = 0u;
     bool asleep = parameters.rest_steps > 0u && is_movable(shape) && own_substeps == 0u;
     uint kept = asleep && (args.w & k_with_parts) != 0u ? island_sizes[body] : 0u;
     BodyPose pose = before;

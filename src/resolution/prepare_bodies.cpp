@@ -14,6 +14,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         if (launch.args[2] == 1) put_hits(state, body, no_hits(no_warm_start()));
         state.told_loads[k_told_words * body + k_told_mass] = 0;
         state.told_loads[k_told_words * body + k_told_height] = 0;
+        state.told_loads[told_foot_word(body, state.parameters.body_count)] = 0;
         BodyPose& pose = state.poses[body];
         const bool asleep =
             state.parameters.rest_steps > 0 && is_movable(state.shapes[body]) && state.substeps[body] == 0;

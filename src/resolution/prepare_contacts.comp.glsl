@@ -63,6 +63,11 @@ void tell_load(LoadBelow load, uint height)
     atomicMax(told_loads[k_told_words * load.body + k_told_height], height);
 }
 
+void tell_foot(ToldFoot foot)
+{
+    if (foot.rate > 0u) atomicMax(told_loads[told_foot_word(foot.body, parameters.body_count)], foot.rate);
+}
+
 vec3 anchor_at(uint pair, uint i) { return unpack(manifold_points[4u * pair + i]).anchor; }
 
 void main()
@@ -99,6 +104,7 @@ void main()
     c = end_centre(c, position_a, position_b);
     Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
     tell_load(load_below(manifold, standing, inverse_mass_a, inverse_mass_b), height_of(manifold.demand));
+    tell_foot(told_foot(manifold, standing));
     Meeting meeting = make_meeting(c, inertia_a, inertia_b);
     c.friction_mass = friction_masses(meeting);
     NormalResponse response = respond_to_normals(meeting);

@@ -40,6 +40,10 @@ void tell_load(const CpuState& state, const LoadBelow& load, uint height) {
     raise_to(told[k_told_height], height);
 }
 
+void tell_foot(const CpuState& state, const ToldFoot& foot) {
+    raise_to(state.told_loads[told_foot_word(foot.body, state.parameters.body_count)], foot.rate);
+}
+
 static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
     const auto prepare_part = [&](uint, uint first, uint end) {
         ContactToPrepare contacts[k_most_lanes];

@@ -118,7 +118,8 @@ std::size_t records_with_hits(uint bodies, uint manifolds) {
 }
 
 /// What only some worlds need for the solve: room for what hits have to know of bodies and contacts, behind the warm
-/// starts, where a simulation has not made it; and for the persistent launch's lists of a heap that may be multirate.
+/// starts, where a simulation has not made it; and for what bodies of a multirate island have to know in the persistent
+/// launch.
 static void reserve_for_solve(Device& device, const StepPlan& plan) {
     if (plan.bounces)
         device.grow(BufferId::WarmStarts,
@@ -126,7 +127,6 @@ static void reserve_for_solve(Device& device, const StepPlan& plan) {
     if (plan.persistent_groups == 0 || !plan.needs_launches() || !plan.may_be_multirate()) return;
     const uint words = fast_body_words(plan.least_substeps, plan.most_substeps);
     device.grow(BufferId::FastBodies, sizeof(uint) * words * plan.body_count);
-    device.grow(BufferId::FastContacts, sizeof(FastContact) * plan.manifold_capacity);
 }
 
 void prepare(Device& device, const StepPlan& plan) {

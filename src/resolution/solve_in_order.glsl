@@ -76,44 +76,25 @@ void take_stamps_away(uint body)
     if (has_stamps(stored)) store_velocity(body, without_stamps(stored, body));
 }
 
-// ---- lists of what is fast ----
+// ---- what is fast ----
 //
-// Most ticks may be such that few have a sub-step. Who these are is listed in the first pass of a step: of each worker's contacts,
-// as nobody else may have them, those that may have one; of each group's bodies, which anybody may move, those that do. To come
-// by all others takes as long as a pass over them.
+// Most ticks may be such that few have a sub-step. To come by all others takes as long as a pass over them. Contacts that have one come
+// first in each colour; bodies that may have one are listed before the first pass of a step, in any order, as anybody may move them.
 
 // A body slot's words: the colours of its fast contacts, two words for each power (see below); then one of the list of bodies.
 layout(std430) coherent buffer FastBodies { uint fast_bodies[]; };
-layout(std430) buffer FastContacts { FastContact fast_contacts[]; };
-
-uint first_fast = k_none;
-uint last_fast = k_none;
-shared uint fast_count; // bodies of the group
 
 uint words_of_body() { return fast_body_words(parameters.least_substeps, parameters.most_substeps); }
 uint list_word(uint place) { return words_of_body() * place + words_of_body() - 1u; }
 
-// `begin`: where the group's places begin.
-void list_fast_body(uint begin, uint body) { fast_bodies[list_word(begin + atomicAdd(fast_count, 1u))] = body; }
-
-// The one in hand.
-void list_fast_contact()
-{
-    if (first_fast == k_none)
-        first_fast = index_in_hand;
-    else
-        fast_contacts[last_fast].next = index_in_hand;
-    last_fast = index_in_hand;
-    fast_contacts[last_fast].next = k_none;
-    fast_contacts[last_fast].rate = rate_of(substeps, traits);
-}
+void list_fast_body(uint body) { fast_bodies[list_word(atomicAdd(arrivals[k_all_fast_bodies], 1u))] = body; }
 
 // ---- the deal ----
 //
 // Each group has a part of every colour. Manifolds of one colour are in the order of pairs, so what a group has of all colours
 // is close together in space: it finds what it reads of bodies where it has read it before, waits for few other groups, and these
-// need not all load at a time and wait at a time. In a multirate heap what is fast comes first in each colour, in that order, too, and is
-// shared by itself: it lies close together, and in the ticks in which most have no sub-step all groups would wait for a few.
+// need not all load at a time and wait at a time. In a multirate island what is fast comes first in each colour, in that order, too, and
+// each rate is shared by itself: it lies close together, and in the ticks in which most have no sub-step all groups would wait for a few.
 
 // Where the group's part of so many begins; that of the next group ends it.
 uint part_begin(uint count, uint group)
@@ -122,26 +103,39 @@ uint part_begin(uint count, uint group)
     return count / groups * group + count % groups * group / groups;
 }
 
-shared uint part_begins[k_max_colours];
-shared uint part_ends[k_max_colours];
-shared uint fast_part_begins[k_multirate_islands ? k_max_colours : 1u];
-shared uint fast_part_counts[k_multirate_islands ? k_max_colours : 1u];
+// Of each colour, and in a multirate solve of each slowness in it, the group's part: where it begins, less what comes before it in the
+// colour; and how many the group has of the colour with it.
+const uint k_parts = k_multirate_islands ? k_slownesses : 1u;
+shared uint part_starts[k_parts * k_max_colours];
+shared uint part_ends[k_parts * k_max_colours];
 
-uint count_of_fast(uint colour) { return k_multirate_islands ? fast_part_counts[colour] : 0u; }
-uint count_of(uint colour) { return part_ends[colour] - part_begins[colour] + count_of_fast(colour); }
+uint part_word(uint colour, uint r) { return r * k_max_colours + colour; }
+// With the slowness r or a lesser one.
+uint count_up_to(uint colour, uint r) { return part_ends[part_word(colour, r)]; }
+uint count_of(uint colour) { return count_up_to(colour, k_parts - 1u); }
 
-// What is fast comes first.
 uint manifold_of(uint colour, uint i)
 {
-    uint fast = count_of_fast(colour);
-    return k_multirate_islands && i < fast ? fast_part_begins[colour] + i : part_begins[colour] + (i - fast);
+    uint r = 0u;
+    while (k_multirate_islands && i >= count_up_to(colour, r))
+        ++r;
+    return part_starts[part_word(colour, r)] + i;
 }
 
-// `begin`, `end`: of what is dealt to all groups.
-void find_part(uint colour, uint begin, uint end)
+void find_parts(uint colour)
 {
-    part_begins[colour] = begin + part_begin(end - begin, gl_WorkGroupID.x);
-    part_ends[colour] = begin + part_begin(end - begin, gl_WorkGroupID.x + 1u);
+    bool has_rates = is_multirate_solve();
+    uint begin = colour_offsets[colour];
+    uint count = 0u;
+    for (uint r = 0u; r < k_parts; ++r) {
+        uint end = colour_offsets[colour + 1u];
+        if (has_rates && r + 1u < k_parts) end = stored_offsets[rate_end_word(colour, r)];
+        uint first = begin + part_begin(end - begin, gl_WorkGroupID.x);
+        part_starts[part_word(colour, r)] = first - count;
+        count += begin + part_begin(end - begin, gl_WorkGroupID.x + 1u) - first;
+        part_ends[part_word(colour, r)] = count;
+        begin = end;
+    }
 }
 
 const uint k_dealt_together = k_in_step;
@@ -157,17 +151,8 @@ void deal_manifolds()
 {
     worker = gl_LocalInvocationID.x;
     if (worker < 3u) is_left[worker] = 0u;
-    if (worker == 0u) fast_count = 0u;
-    for (uint colour = worker; colour < k_max_colours; colour += workers()) {
-        uint begin = colour_offsets[colour];
-        if (k_multirate_islands) { // first of what is fast, then of the rest
-            find_part(colour, begin, stored_offsets[k_fast_ends + colour]);
-            fast_part_begins[colour] = part_begins[colour];
-            fast_part_counts[colour] = part_ends[colour] - part_begins[colour];
-            begin = stored_offsets[k_fast_ends + colour];
-        }
-        find_part(colour, begin, colour_offsets[colour + 1u]);
-    }
+    for (uint colour = worker; colour < k_max_colours; colour += workers())
+        find_parts(colour);
     barrier();
     find_places();
     find_end_of_places(gl_WorkGroupID.x == 0u);
@@ -175,12 +160,23 @@ void deal_manifolds()
 
 uint first_place_from(uint end) { return worker + round_up(max(end, worker) - worker, workers()); }
 
-// Of what is listed, one after the other.
-uint manifold_in_list(uint index)
+// Whether the manifold at a place of the worker's colour stands among those of the slowness r or a lesser one; or some of it may that
+// runs in step with it.
+bool is_as_fast(uint place, uint r) { return place - first_places[worker_colour] < count_up_to(worker_colour, r); }
+bool row_is_as_fast(uint place, uint r) { return is_as_fast(place / k_dealt_together * k_dealt_together, r); }
+
+// The worker's next place, from one of its own on, where that is so. `end`: of places in order.
+uint next_fast_place(uint place, uint r, uint end)
 {
-    while (part_ends[worker_colour] <= index)
-        ++worker_colour;
-    return index;
+    uint next = place;
+    bool is_found = false;
+    while (!is_found && first_places[worker_colour] < end) {
+        next = max(next, first_place_from(first_places[worker_colour]));
+        is_found = row_is_as_fast(next, r);
+        if (!is_found) ++worker_colour;
+    }
+    if (!is_found) next = first_place_from(end);
+    return next;
 }
 
 // ---- ticks in which few have a sub-step ----
@@ -220,7 +216,6 @@ uint count_earlier_fast(uint body, uint its_traits, uint colour, uint power)
 void note_unlike()
 {
     if (!k_multirate_islands || ticks_apart == 1u || index_in_hand >= colour_offsets[k_first_hub_colour]) return;
-    list_fast_contact();
     note_fast_colour(body_a, traits, worker_colour);
     note_fast_colour(body_b, traits >> k_traits_of_b, worker_colour);
 }
@@ -259,14 +254,14 @@ bool is_alone() { return !k_waits_freely && gl_NumWorkGroups.x == 1u; }
 
 uint looks_in_hand; // at the contact in hand
 
-// Whether it is the turn of the contact in hand, or somebody has given up. What runs in step waits here together, if none of it waits
-// for another one. Else each looks once, as those whose turn it is have to go on. Some drivers end a loop after so many rounds.
-bool wait_for_turn(bool waits_together)
+// Whether it is the turn of the contact in hand, or somebody has given up. What runs in step waits here together, as none of it waits
+// for another one. Some drivers end a loop after so many rounds.
+bool wait_for_turn()
 {
     bool fits = is_turn();
     if (is_alone()) return fits;
     bool is_to_look = !fits && looks_again(looks_in_hand);
-    while (waits_together && is_to_look) {
+    while (is_to_look) {
         fits = is_turn();
         is_to_look = !fits && looks_again(looks_in_hand);
     }
@@ -351,21 +346,25 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     wait_for_finish();
     ++passes_in_order;
     uint end = first_places[k_first_hub_colour];
-    bool all = most_have_substep(tick); // have a part in it, or what is listed
-    uint place = all ? worker : first_place_from(end);
-    uint listed = first_fast;
+    bool all = most_have_substep(tick); // have a part in it, or what is fast
+    uint power = all ? 0u : ticks_power(tick);
+    worker_colour = first_colour;
+    uint place = worker;
+    if (!all) place = next_fast_place(place, power, end);
     uint first = k_none; // of the worker's manifolds; the next pass begins with it
     bool is_ready = false;
     PassTarget target;
-    come_by = (place - worker) / workers();
-    worker_colour = first_colour;
-    while (goes_on(all ? place < end : listed != k_none)) {
-        if (all ? place >= end : listed == k_none) continue;
-        uint index = all ? manifold_at(place) : manifold_in_list(listed);
-        FastContact fast = FastContact(k_none, 0u);
-        if (!all) fast = fast_contacts[listed];
-        if (index != k_none && (all ? has_substep(index, tick) : has_substep(fast, tick))) {
+    while (goes_on(place < end)) {
+        if (place >= end) continue;
+        come_by = (place - worker) / workers();
+        uint index = manifold_at(place);
+        bool has_part = index != k_none;
+        if (has_part) has_part = all ? has_substep(index, tick) : is_as_fast(place, power);
+        if (has_part) {
             take_in_hand(index, false);
+            if (!all) has_part = in_hand_has_substep(tick); // it may be slower than it stands, or of another island
+        }
+        if (has_part) {
             if (!is_ready) {
                 if (pass == k_warm_start)
                     note_whether_unlike();
@@ -376,18 +375,15 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
                 is_ready = true;
                 if (first == k_none) first = index;
             }
-            if (!wait_for_turn(all)) continue;
+            if (!wait_for_turn()) continue;
             pass_in_turn(pass, index, target);
             is_ready = false;
         }
-        if (all) {
-            place += workers();
-            ++come_by;
-        } else {
-            listed = fast.next;
-        }
+        place += workers();
+        if (!all) place = next_fast_place(place, power, end);
     }
-    if (all ? place < end : listed != k_none) give_up(); // a driver has ended the loop
+    if (place < end) give_up(); // a driver has ended the loop
+    come_by = (place - worker) / workers();
     take_in_hand(first, false);
     bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
     bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;

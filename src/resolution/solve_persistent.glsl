@@ -7,7 +7,7 @@
 // args.x: 1 to count how many groups can run at a time instead. args.y: 1 where some body is kinematic.
 // Reads: Counters, ColourOffsets, Hubs, LaunchedBodies, Inertias, Properties, Loads.
 // Writes: Velocities, Deltas, WarmStarts, Constraints (impulses); Poses (flags) and Counters where a body is frozen;
-// HubChanges, FastBodies, FastContacts, Arrivals.
+// HubChanges, FastBodies, Arrivals.
 // Needs: a barrier after prepare_contacts; no more groups than can run at a time; Arrivals as plan_colours leaves it.
 // Overflow: none; does nothing after a step that did not fit. It has 16 storage blocks, which is as many as there may be.
 #include "state/math.shared.glsl"
@@ -18,6 +18,7 @@
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/softness.shared.glsl"
 #include "resolution/multirate.shared.glsl"
+#include "resolution/island.shared.glsl"
 #include "resolution/manifold_rows.shared.glsl"
 #include "resolution/contact.shared.glsl"
 #include "resolution/hub.shared.glsl"
@@ -111,10 +112,10 @@ void integrate_own_bodies(uint tick)
     uint launched = counters[k_counter_launched_bodies];
     bool looks_at_all = 2u * launched > parameters.body_count;
     uint count = looks_at_all ? parameters.body_count : launched;
-    uint begin = part_begin(count, gl_WorkGroupID.x);
     bool all = most_have_substep(tick);
-    uint end = all ? part_begin(count, gl_WorkGroupID.x + 1u) : begin + fast_count;
-    uint next = begin + worker;
+    if (!all) count = arrivals[k_all_fast_bodies];
+    uint end = part_begin(count, gl_WorkGroupID.x + 1u);
+    uint next = part_begin(count, gl_WorkGroupID.x) + worker;
     while (hub < hub_count || next < end) {
         uint body;
         moves_hub = hub < hub_count;
@@ -128,7 +129,7 @@ void integrate_own_bodies(uint tick)
         if (k_multirate_islands && tick == 0u) {
             forget_fast_colours(body);
             BodyInertia inertia = unpack(inertias[body]);
-            if (!moves_hub && is_own(inertia) && (1u << slowness(inertia.traits)) != ticks_apart) list_fast_body(begin, body);
+            if (!moves_hub && is_own(inertia) && (1u << slowness(inertia.traits)) != ticks_apart) list_fast_body(body);
         }
         integrate_body(body, tick);
         bool keeps_stamps = parameters.relax == 0u && tick == like_substeps * ticks_apart;

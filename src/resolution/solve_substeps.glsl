@@ -30,7 +30,7 @@ uint ticks_apart;   // from one of these to the next
 // ---- who has another number of sub-steps ----
 //
 // Those with the same as most are not asked whether they have a sub-step at a tick: a load for each would take as long as the
-// passes do.
+// passes do. Nor are those of a multirate island that have places in order: where most have one, so has each of these.
 
 uint come_by;       // how many manifolds the worker has come by in this pass
 uvec2 unlike_marks; // bits for them in turns: one of them may have another number
@@ -45,7 +45,7 @@ bool has_mark() { return (unlike_marks & mark()) != uvec2(0u); }
 void note_whether_unlike()
 {
     if (substeps == like_substeps && (1u << slowness(traits)) == ticks_apart) return;
-    unlike_marks |= mark();
+    if (!is_multirate(traits) || index_in_hand >= colour_offsets[k_first_hub_colour]) unlike_marks |= mark();
     note_unlike();
 }
 
@@ -62,6 +62,9 @@ bool has_substep(uint index, uint tick)
     }
     return has;
 }
+
+// Whether the one in hand has a sub-step at a tick at which most have none.
+bool in_hand_has_substep(uint tick) { return substep_at(tick, traits) < substeps; }
 
 // ---- the worker's manifolds ----
 

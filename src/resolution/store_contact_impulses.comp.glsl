@@ -53,9 +53,11 @@ void main()
     Manifold manifold = unpack(manifolds[c.manifold]);
     manifold.colour = colour_of_step(manifold_keys[index], c.traits);
     Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, parameters);
-    uint told = k_told_words * body_above(standing, c.body_a, c.body_b);
-    Manifold finished = finish_manifold(manifold, c, standing, impulses.normal, told_loads[told + k_told_mass],
-                                        told_loads[told + k_told_height], parameters);
+    uint above = k_told_words * body_above(standing, c.body_a, c.body_b);
+    uint below = body_below(standing, c.body_a, c.body_b);
+    Manifold finished = finish_manifold(manifold, c, standing, impulses.normal, told_loads[above + k_told_mass],
+                                        told_loads[above + k_told_height], told_loads[k_told_words * below + k_told_mass],
+                                        told_loads[told_foot_word(below, parameters.body_count)], parameters);
     manifolds[c.manifold] = pack(finished);
     if (!asks_alike(finished.demand, manifold.demand, substeps_of_contact(c.counts), args.z == 1u))
         counters[k_counter_graph_due] = 1u; // of the next step

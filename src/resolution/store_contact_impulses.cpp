@@ -22,9 +22,12 @@ static void store_contact_impulses_on_cpu(CpuState& state, const Launch& launch)
         manifold.colour = colour_of_step(state.manifold_keys[index], c.traits);
         const uint demand = manifold.demand;
         const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);
-        const uint* const told = &state.told_loads[k_told_words * body_above(standing, c.body_a, c.body_b)];
+        const uint* const above = &state.told_loads[k_told_words * body_above(standing, c.body_a, c.body_b)];
+        const uint below = body_below(standing, c.body_a, c.body_b);
         manifold =
-            finish_manifold(manifold, c, standing, impulse, told[k_told_mass], told[k_told_height], state.parameters);
+            finish_manifold(manifold, c, standing, impulse, above[k_told_mass], above[k_told_height],
+                            state.told_loads[k_told_words * below + k_told_mass],
+                            state.told_loads[told_foot_word(below, state.parameters.body_count)], state.parameters);
         // Of the next step.
         if (!asks_alike(manifold.demand, demand, substeps_of_contact(c.counts), launch.args[2] == 1))
             std::atomic_ref(state.counters[k_counter_graph_due]).store(1, std::memory_order_relaxed);

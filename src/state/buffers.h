@@ -82,7 +82,6 @@ namespace talus::engine {
     X(ToldLoads, told_loads, uint, "u", Result)                                                                        \
     X(Balances, balances, uint, "u", Scratch)                                                                          \
     X(FastBodies, fast_bodies, uint, "u", Scratch)                                                                     \
-    X(FastContacts, fast_contacts, FastContact, "uu", Scratch)                                                         \
     X(Hubs, hubs, uint, "u", Scratch)                                                                                  \
     X(HubChanges, hub_changes, HubChange, "fffufffu", Result)                                                          \
     X(Arrivals, arrivals, uint, "u", Scratch)                                                                          \

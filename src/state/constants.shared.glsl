@@ -58,8 +58,11 @@ const uint k_ground_colour = 61u; // for contacts with the ground: bodies that c
 const uint k_first_hub_colour = 62u;
 const uint k_overflow_colour = 64u;
 const uint k_colour_offsets = k_overflow_colour + 2u; // where each of these begins, and the end
-const uint k_fast_ends = k_colour_offsets; // behind them: where what is fast in a multirate island ends, of each colour
-const uint k_offset_words = k_fast_ends + k_max_colours;
+// Behind them: where in each colour ends what has a slowness, or a lesser one, in multirate islands; of all but the last slowness.
+const uint k_most_doublings = 5u; // of the least sub-steps
+const uint k_slownesses = k_most_doublings + 1u;
+const uint k_rate_ends = k_colour_offsets;
+const uint k_offset_words = k_rate_ends + k_most_doublings * k_max_colours;
 const uint k_inactive_colour = 127u;
 const uint k_colours_of_key = k_overflow_colour + 1u; // of what is solved; keys of manifolds count them: see island.shared.glsl
 const uint k_no_colour = 0xffu; // not coloured yet
@@ -175,7 +178,8 @@ const uint k_spread_group = 256u; // bodies that one group sums
 const uint k_count_group = 256u;  // items that one group counts: with small groups, what they add up waits for one word
 const uint k_mark_words = k_count_group / 32u; // of a bit for each of them
 // Of Arrivals, see primitives/grid_barrier.glsl.
-const uint k_arrival_words = 3u;
+const uint k_all_fast_bodies = 3u; // the word with how many bodies of a multirate solve are fast
+const uint k_arrival_words = 4u;
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
 const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island
 // In a larger world a work group solves several islands: those that begin within a window of so many bodies, in the order
@@ -184,7 +188,7 @@ const uint k_island_bodies = 1024u; // body slots of a world that is solved isla
 const uint k_group_window = 60u;
 const uint k_most_grouped = 196u; // bodies of an island that a group can solve
 const uint k_group_room = k_group_window + k_most_grouped; // bodies
-const uint k_least_multirate = 131072u; // bodies of an island whose contacts may differ in sub-steps
+const uint k_least_multirate = 65536u; // bodies of an island whose contacts may differ in sub-steps
 const uint k_most_single = k_island_bodies; // bodies of an island that has a group of its own
 // In shared memory, each for the velocity or the movement of a body, where contacts of a group wait one by one: for both of 681
 // bodies of a single island, or body slots of a small world, and for the velocities of more.

@@ -196,12 +196,6 @@ struct ContactConstraint {
 
 const uint k_first_changing = 11u; // its cell, and the passes change all from it on
 
-// 8 bytes, one a constraint: of a list of those that may have more sub-steps than most.
-struct FastContact {
-    uint next; // constraint in the list; k_none at its end
-    uint rate; // see resolution/multirate.shared.glsl
-};
-
 // 32 bytes, one for each constraint in the colours for hubs: what it does to its hub in a pass.
 struct HubChange {
     vec3 linear; // m/s
