@@ -40,8 +40,7 @@ void main()
         return;
     }
     uint size = island_size(island_sizes[island]);
-    bool multirate =
-        args.w == 1u ? (substeps[body] & k_multirate) != 0u : size >= args.z;
+    bool multirate = args.w == 1u ? (substeps[body] & k_multirate) != 0u : size >= args.z;
     uint group = args.x == 1u && !multirate ? island_group(size, island_starts[island], args.y == 1u) : k_launched;
     uint place = island_starts[island] + (atomicAdd(island_fill[island], 1u) & k_fill_count);
     island_groups[body] = group;

@@ -222,6 +222,9 @@ void note_unlike()
 
 // ---- a pass ----
 
+// Whether the one in hand has a sub-step at a tick at which most have none.
+bool in_hand_has_substep(uint tick) { return substep_at(tick, traits) < substeps; }
+
 uint earlier_a; // contacts of its bodies that come before the one in hand
 uint earlier_b;
 

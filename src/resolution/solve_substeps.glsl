@@ -63,9 +63,6 @@ bool has_substep(uint index, uint tick)
     return has;
 }
 
-// Whether the one in hand has a sub-step at a tick at which most have none.
-bool in_hand_has_substep(uint tick) { return substep_at(tick, traits) < substeps; }
-
 // ---- the worker's manifolds ----
 
 void find_own_manifolds()
