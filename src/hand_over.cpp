@@ -88,7 +88,8 @@ void hand_over_state(Device& from, Device& to, StateCounts counts) {
     static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 14,
                   "another buffer survives the step");
     hand_over_drawn(from, to, counts);
-    copy(from, to, counts.slots, {BufferId::Velocities, BufferId::Properties, BufferId::OrientedBoxes});
+    copy(from, to, counts.slots,
+         {BufferId::Velocities, BufferId::Properties, BufferId::OrientedBoxes, BufferId::SortValues});
     copy_what_there_is(from, to, counts.slots, BufferId::Loads);
     copy_what_there_is(from, to, counts.slots, BufferId::Rests);
     copy_what_there_is(from, to, counts.pairs, BufferId::OldContactStates);

@@ -187,9 +187,6 @@ Simulation::Simulation(const WorldOptions& options, Devices devices)
     reserve_rests(1);
     grow_everywhere(BufferId::Loads, 1);
     grow_everywhere(BufferId::ColourOffsets, k_offset_words);
-    grow_everywhere(BufferId::Strays, k_most_strays);
-    grow_everywhere(BufferId::KnownPairs, k_most_stray_pairs);
-    grow_everywhere(BufferId::NearPairs, k_most_stray_pairs);
     reserve_bodies(first(options.capacities.bodies, k_first_bodies));
     reserve_pairs(first(options.capacities.pairs, k_first_pairs));
     // Reports stay within the memory of the host where the resolution runs there.
@@ -226,6 +223,10 @@ void Simulation::reserve_bodies(uint count) {
     for (const BufferId buffer : k_body_buffers)
         grow_everywhere(buffer, capacity);
     if (has_loads) grow_everywhere(BufferId::Loads, capacity);
+    grow_everywhere(BufferId::Strays, most_strays(capacity, true));
+    grow_everywhere(BufferId::WideStrays, most_strays(capacity, true));
+    grow_everywhere(BufferId::NearPairs, most_near_pairs(capacity, true));
+    grow_everywhere(BufferId::NearTable, near_table_size(capacity, true));
     grow_everywhere(BufferId::SpreadSums, capacity / k_spread_group + 1);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
     grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words + 1} * capacity);

@@ -11,6 +11,9 @@
 
 namespace talus::engine {
 
+// Nobody wants the list of launched bodies before the resolution makes it.
+static constexpr std::initializer_list<Binding> k_marks{{"StrayMarks", BufferId::LaunchedBodies}};
+
 static void sort_bodies(Device& device, uint body_count) {
     sort_by_key(device, {.keys = BufferId::SortKeys,
                          .values = BufferId::SortValues,
@@ -48,16 +51,25 @@ static void reserve_sweep(Device& device) {
     device.grow(BufferId::SortedAabbs, std::size_t{body_capacity(device)} * sizeof(Aabb));
 }
 
+/// Of the bodies as they are in order; or for strays, of all in the order of the last search.
+static void build_tree_of(Device& device, uint body_count, uint top, bool for_strays) {
+    const uint highest = for_strays ? strays_begin_at(body_count) : top;
+    uint shift = 0;
+    do {
+        device.run({.kernel = build_tree,
+                    .items = tree_level_size(body_count, shift),
+                    .args = {shift, top, for_strays},
+                    .bindings = k_marks});
+        shift += k_tree_shift;
+    } while (shift < highest);
+}
+
 static void make_tree(Device& device, uint body_count, uint top) {
     device.run({.kernel = measure_spread, .items = body_count});
     device.run({.kernel = choose_grid, .items = 1});
     device.run({.kernel = write_tree_keys, .items = body_count});
     sort_bodies(device, body_count);
-    uint shift = 0;
-    do {
-        device.run({.kernel = build_tree, .items = tree_level_size(body_count, shift), .args = {shift, top}});
-        shift += k_tree_shift;
-    } while (shift < top);
+    build_tree_of(device, body_count, top, false);
 }
 
 // Counting first gives each body's pairs a place that does not depend on who comes first.
@@ -88,17 +100,33 @@ static void search_all(Device& device, const StepPlan& plan) {
     }
 }
 
+static void search_for_strays(Device& device, const StepPlan& plan, bool has_tree) {
+    if (has_tree) {
+        const uint top = tree_top(plan.body_count);
+        reserve_tree(device);
+        build_tree_of(device, plan.body_count, top, true);
+        device.run({.kernel = search_strays,
+                    .items = most_strays(plan.body_count, has_tree),
+                    .args = {0, top, strays_begin_at(plan.body_count)},
+                    .bindings = k_marks});
+    }
+    constexpr uint most_items = 1u << 17; // each group has a beginning to make
+    device.run({.kernel = compare_strays,
+                .items = std::min(plan.body_count, most_items),
+                .args = {has_tree},
+                .bindings = k_marks});
+    device.run({.kernel = find_known_pairs, .items = plan.pair_capacity, .args = {has_tree}, .bindings = k_marks});
+    device.run({.kernel = add_pairs, .items = 1});
+    device.run({.kernel = update_aabbs, .items = most_strays(plan.body_count, has_tree), .args = {1}});
+}
+
 // What it launches does nothing in a step whose pairs are still those of the last search, or where a smaller search
 // does.
 static void search(Device& device, const StepPlan& plan) {
-    // Nobody wants the list of launched bodies before the resolution makes it.
-    const std::initializer_list<Binding> bindings{{"StrayMarks", BufferId::LaunchedBodies}};
-    device.run({.kernel = find_strays, .items = plan.body_count, .bindings = bindings});
+    const bool has_tree = plan.broad_phase == BroadPhase::Bvh;
+    device.run({.kernel = find_strays, .items = plan.body_count, .args = {has_tree}, .bindings = k_marks});
     if (plan.search == Search::None) return;
-    constexpr uint most_items = 1u << 17; // each group has a beginning to make
-    device.run({.kernel = search_strays, .items = std::min(plan.body_count, most_items), .bindings = bindings});
-    device.run({.kernel = find_known_pairs, .items = plan.pair_capacity, .bindings = bindings});
-    device.run({.kernel = add_pairs, .items = 1});
+    search_for_strays(device, plan, has_tree);
     if (plan.search != Search::All) return;
     if (plan.sweeps_in_group()) {
         reserve_sweep(device);

@@ -17,6 +17,7 @@ uint boxes_of_search(uint body_capacity);
 
 extern const Kernel find_strays;
 extern const Kernel search_strays;
+extern const Kernel compare_strays;
 extern const Kernel find_known_pairs;
 extern const Kernel add_pairs;
 extern const Kernel update_aabbs;

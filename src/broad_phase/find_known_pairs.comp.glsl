@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-// One invocation is an entry of the list of pairs: whether the pair is of a stray that is near to somebody.
-// Reads: Counters, Pairs, StrayMarks.
-// Writes: KnownPairs, in any order; Counters.
-// Needs: a barrier after search_strays.
-// Overflow: where strays have too many pairs all are searched for.
+// One invocation is an entry of the list of pairs: whether the pair is one that a stray has been found near to again.
+// args.x: 1 where there is a tree.
+// Reads: Counters, Pairs, StrayMarks, NearTable.
+// Writes: NearPairs, those that are in the list.
+// Needs: a barrier after compare_strays.
+// Overflow: none.
 #include "broad_phase/strays.shared.glsl"
+#include "narrow_phase/pair_table.shared.glsl"
 
 layout(local_size_x = 256) in;
 
+layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Pairs { Pair pairs[]; };
 layout(std430) readonly buffer StrayMarks { uint stray_marks[]; };
-layout(std430) writeonly buffer KnownPairs { Pair known_pairs[]; };
-layout(std430) buffer Counters { uint counters[]; };
+layout(std430) readonly buffer NearTable { uint near_table[]; };
+layout(std430) buffer NearPairs { Pair near_pairs[]; };
 
 bool is_near_to_somebody(uint body) { return stray_marks[body] == k_stray_near; }
 
@@ -22,9 +25,12 @@ void main()
     if (entry >= counters[k_counter_pair_demand]) return;
     Pair pair = pairs[entry];
     if (!is_near_to_somebody(pair.body_a) && !is_near_to_somebody(pair.body_b)) return;
-    uint place = atomicAdd(counters[k_counter_known_pairs], 1u);
-    if (place < most_stray_pairs(parameters.body_count))
-        known_pairs[place] = pair;
-    else
-        counters[k_counter_search_count] = parameters.body_count; // all write the same
+    uint last = near_table_size(parameters.body_count, args.x == 1u) - 1u;
+    uint slot = hash_pair(pair.body_a, pair.body_b) & last;
+    uint place = near_table[slot];
+    while (place != k_none && !is_same_pair(near_pairs[place], pair)) {
+        slot = (slot + 1u) & last;
+        place = near_table[slot];
+    }
+    if (place != k_none) near_pairs[place].body_a = k_none; // is_known: nobody else asks for this one
 }

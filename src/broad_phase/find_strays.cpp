@@ -17,7 +17,7 @@ static void note_who_is_awake(CpuState& state) {
     });
 }
 
-static void find_strays_on_cpu(CpuState& state, const Launch&) {
+static void find_strays_on_cpu(CpuState& state, const Launch& launch) {
     Array<uint>& counters = state.counters;
     if (counters[k_counter_did_not_fit] != 0) return;
     const uint body_count = state.parameters.body_count;
@@ -25,7 +25,8 @@ static void find_strays_on_cpu(CpuState& state, const Launch&) {
     const bool other_list = counters[k_counter_searched_slots] != body_count;
     const bool takes_all =
         other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
-    const uint most = most_strays(body_count);
+    const bool has_tree = launch.args[0] == 1;
+    const uint most = most_strays(body_count, has_tree);
     std::atomic<uint> count = other_list ? most + 1 : 0;
     const LaneSearch& search = lane_search();
     state.parallel_parts(other_list ? 0 : body_count, search.lanes, [&](uint, uint first, uint end) {
@@ -38,10 +39,17 @@ static void find_strays_on_cpu(CpuState& state, const Launch&) {
                 count.store(most + 1, std::memory_order_relaxed);
         }
     });
-    if (count > most)
+    if (count > most) {
         counters[k_counter_search_count] = body_count;
-    else
-        counters[k_counter_stray_count] = count;
+        return;
+    }
+    counters[k_counter_stray_count] = count;
+    if (count == 0) return;
+    const Array<uint> marks = state.words(launch.bound("StrayMarks"));
+    std::fill_n(marks.data, body_count, 0u);
+    for (uint i = 0; i < count; ++i)
+        marks[state.strays[i]] = k_stray;
+    std::fill_n(state.near_table.data, near_table_size(body_count, has_tree), k_none);
 }
 
 const Kernel find_strays{"broad_phase/find_strays", find_strays_on_cpu};

@@ -47,6 +47,10 @@ struct LaneSearch {
     /// Goes through the tree with the `count` bodies from the place `first` on, one in each lane, and takes for each
     /// those at later places that are candidates and that no face parts from it, in the order of their places.
     void (*search_tree)(const TreeView&, uint first, uint count, TakePartner take, void* context);
+    /// Goes through it, from its nodes of a shift down, with at most as many boxes as there are lanes, and takes for
+    /// each the places of all boxes that are candidates.
+    void (*search_tree_for)(const TreeView&, uint shift, const Aabb* boxes, uint count, TakePartner take,
+                            void* context);
 };
 
 /// With the widest registers that this machine has.

@@ -87,6 +87,28 @@ inline std::uint32_t find_parted(const PlacesView& view, const std::uint32_t* pl
     return bits_of(faces_part(oriented_boxes_at(view.boxes, a), oriented_boxes_at(view.boxes, b)));
 }
 
+/// From a place on, at which it begins with the node that has that shift; no higher than `highest`. Of the first
+/// `in_order` lanes each only looks at what comes behind its own place, which is `first` for the first of them.
+TALUS_LANE void walk_tree(const TreeView& tree, const Aabb& own, std::uint32_t all, std::uint32_t place,
+                          std::uint32_t shift, std::uint32_t highest, std::uint32_t first, std::uint32_t in_order,
+                          const auto& meet) {
+    while (place < tree.end) {
+        std::uint32_t found = 0;
+        for (;; shift -= k_tree_bits) {
+            const engine::Aabb& node = tree.nodes[tree_node(place, shift, tree.top)];
+            found = bits_of(is_candidate(own, Aabb{node.lower, node.margin, node.upper, node.movable})) & all;
+            // Lanes that begin behind all of the node's places.
+            const std::uint32_t before = place + (1u << shift) - 1u - first;
+            if (before < in_order) found &= (1u << before) - 1u;
+            if (found == 0 || shift == 0) break;
+        }
+        if (found != 0) meet(place, found);
+        place += 1u << shift;
+        const std::uint32_t next = tree_shift_from(place);
+        shift = next < highest ? next : highest;
+    }
+}
+
 inline void search_tree(const TreeView& tree, std::uint32_t first, std::uint32_t count, TakePartner take,
                         void* context) {
     std::uint32_t leaves[k_lanes], bodies[k_lanes];
@@ -98,25 +120,22 @@ inline void search_tree(const TreeView& tree, std::uint32_t first, std::uint32_t
     const auto lower = gather(tree.nodes, leaves, 0), upper = gather(tree.nodes, leaves, 1);
     const Aabb own{three_of(lower), lower.w, three_of(upper), floatBitsToUint(upper.w)};
     const OrientedBox own_oriented = oriented_boxes_at(tree.boxes, bodies);
-    const std::uint32_t all = (1u << count) - 1u;
-    std::uint32_t shift = 0;
-    for (std::uint32_t place = first + 1; place < tree.end; place += 1u << shift, shift = tree_shift_from(place)) {
-        std::uint32_t found = 0;
-        for (;; shift -= k_tree_bits) {
-            const engine::Aabb& node = tree.nodes[tree_node(place, shift, tree.top)];
-            found = bits_of(is_candidate(own, Aabb{node.lower, node.margin, node.upper, node.movable})) & all;
-            // Lanes that begin behind all of the node's places.
-            const std::uint32_t before = place + (1u << shift) - 1u - first;
-            if (before < count) found &= (1u << before) - 1u;
-            if (found == 0 || shift == 0) break;
-        }
-        if (found == 0) continue;
-        const engine::OrientedBox& other = tree.boxes[tree.bodies[place]];
-        const vec4 rotation{other.rotation.x, other.rotation.y, other.rotation.z, other.rotation.w};
-        const OrientedBox oriented{other.centre, other.margin, rotation, other.half_extents, other.type};
-        found &= ~bits_of(faces_part(own_oriented, oriented));
-        if (found != 0) take(context, place, found);
-    }
+    walk_tree(tree, own, (1u << count) - 1u, first + 1, 0, tree.top, first, count,
+              [&](std::uint32_t place, std::uint32_t found) {
+                  const engine::OrientedBox& other = tree.boxes[tree.bodies[place]];
+                  const vec4 rotation{other.rotation.x, other.rotation.y, other.rotation.z, other.rotation.w};
+                  const OrientedBox oriented{other.centre, other.margin, rotation, other.half_extents, other.type};
+                  found &= ~bits_of(faces_part(own_oriented, oriented));
+                  if (found != 0) take(context, place, found);
+              });
+}
+
+inline void search_tree_for(const TreeView& tree, std::uint32_t shift, const engine::Aabb* boxes, std::uint32_t count,
+                            TakePartner take, void* context) {
+    Aabb own;
+    take_boxes(boxes, count, &own);
+    walk_tree(tree, own, (1u << count) - 1u, 0, shift, shift, 0, 0,
+              [&](std::uint32_t place, std::uint32_t found) { take(context, place, found); });
 }
 
 } // namespace talus::engine::TALUS_LANES_NAME
@@ -131,6 +150,7 @@ const LaneSearch TALUS_OF_SET(lane_search){TALUS_LANES,
                                            TALUS_LANES_NAME::take_boxes,
                                            TALUS_LANES_NAME::find_partners,
                                            TALUS_LANES_NAME::find_parted,
-                                           TALUS_LANES_NAME::search_tree};
+                                           TALUS_LANES_NAME::search_tree,
+                                           TALUS_LANES_NAME::search_tree_for};
 
 } // namespace talus::engine

@@ -62,7 +62,7 @@ void main()
         counters[k_counter_graph_due] = k_due_for_hubs;
     counters[k_counter_search_count] = 0u;
     counters[k_counter_stray_count] = 0u;
-    counters[k_counter_known_pairs] = 0u;
+    counters[k_counter_wide_strays] = 0u;
     counters[k_counter_near_pairs] = 0u;
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;

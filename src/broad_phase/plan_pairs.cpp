@@ -52,7 +52,7 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
         counters[k_counter_graph_due] = 1;
     else if (may_have_other_shares && counters[k_counter_graph_due] == 0)
         counters[k_counter_graph_due] = k_due_for_hubs;
-    for (const uint counter : {k_counter_search_count, k_counter_stray_count, k_counter_known_pairs,
+    for (const uint counter : {k_counter_search_count, k_counter_stray_count, k_counter_wide_strays,
                                k_counter_near_pairs, k_counter_report_count})
         counters[counter] = 0;
     counters[k_counter_sleeping_bodies] = 0;

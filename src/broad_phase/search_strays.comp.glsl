@@ -1,159 +1,114 @@
 // SPDX-License-Identifier: MIT
-// An invocation has some body slots: which strays a body is near to. Of two strays the one with the higher slot finds the pair. What was
-// near already as the boxes are that the list was made of is in it, and is not found again.
-// Reads: Counters, Poses, Velocities, Shapes, Strays, StrayMarks, Aabbs, OrientedBoxes.
-// Writes: NearPairs, in any order; StrayMarks, of those that are near to somebody; Counters.
-// Needs: a barrier after find_strays.
-// Overflow: where strays have too many pairs all are searched for.
+// A group has some strays, and goes down the tree with all of them, level by level: nodes that overlap a stray's box have their children
+// looked at in the next level. What was near already as the boxes are that the list was made of is in it, and is not found again.
+// Strays that meet too much for that are left to compare_strays.
+// args.y: the root's shift. args.z: that of the nodes that it begins with.
+// Reads: Counters, Poses, Velocities, Shapes, Strays, TreeNodes, with the strays' boxes as they are now, SortValues, Aabbs,
+// OrientedBoxes.
+// Writes: NearPairs and NearTable, in any order; StrayMarks, of those that are near to somebody; WideStrays, in any order; Counters.
+// Needs: a barrier after build_tree.
+// Overflow: where strays are near to too many all are searched for.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
+#include "broad_phase/tree.shared.glsl"
 #include "broad_phase/strays.shared.glsl"
+#include "narrow_phase/pair_table.shared.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = 128) in;
 
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
 layout(std430) readonly buffer Strays { uint strays[]; };
 layout(std430) buffer StrayMarks { uint stray_marks[]; };
+layout(std430) readonly buffer TreeNodes { AabbCells tree_nodes[]; };
+layout(std430) readonly buffer SortValues { uint sort_values[]; };
 layout(std430) readonly buffer Aabbs { AabbCells aabbs[]; };
 layout(std430) readonly buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
+layout(std430) writeonly buffer WideStrays { uint wide_strays[]; };
 layout(std430) writeonly buffer NearPairs { Pair near_pairs[]; };
+layout(std430) buffer NearTable { uint near_table[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
+bool has_tree() { return true; }
+
 #include "broad_phase/box_now.glsl"
+#include "broad_phase/note_near.glsl"
 
-// Strays lie in the cells of a grid, each in that of its centre; cells of one hash share a list.
-const uint k_cells = 1024u;
-const uint k_most_cells = 64u; // that a body looks at: a larger one is left to all of the group
-const uint k_most_large = 64u; // bodies of a group that are
+// What a stray meets in a level: the node, and in the highest bits which of the group's strays it is.
+const uint k_node_bits = 28u;
+const uint k_strays_a_group = 1u << (32u - k_node_bits);
+const uint k_most_met = 2048u; // in a level
 
-shared uint stray_count; // 0 where there is nothing to do
-shared uint largest_extent; // of a stray's box, m: the bits of a float
-shared Aabb stray_aabbs[k_most_strays];
-shared uint first_of_cell[k_cells]; // a stray's place
-shared uint next_of_cell[k_most_strays];
-shared uint large_bodies[k_most_large];
-shared uint large_count;
+shared Aabb boxes[k_strays_a_group]; // of the strays, as they are now
+shared uint met[2u * k_most_met]; // in two levels by turns
+shared uint met_counts[3]; // of three: the third is emptied for the next level
+shared uint wide; // a bit for each stray that has met more than there is room for
 
-void note_near(uint stray, uint body)
+uint first_stray() { return group_index() * k_strays_a_group; }
+
+uint met_count(uint level) { return min(met_counts[level % 3u], k_most_met); }
+
+uint met_in(uint level, uint i) { return met[level % 2u * k_most_met + i]; }
+
+void note_met(uint level, uint stray, uint node)
 {
-    stray_marks[stray] = k_stray_near; // others may write the same
-    uint place = atomicAdd(counters[k_counter_near_pairs], 1u);
-    if (place < most_stray_pairs(parameters.body_count))
-        near_pairs[place] = make_pair(stray, body);
+    uint i = atomicAdd(met_counts[level % 3u], 1u);
+    if (i < k_most_met)
+        met[level % 2u * k_most_met + i] = stray << k_node_bits | node;
     else
-        counters[k_counter_search_count] = parameters.body_count;
+        atomicOr(wide, 1u << stray);
 }
 
-float inverse_cell() { return 0.5 / uintBitsToFloat(largest_extent); }
+uint stray_of(uint one) { return one >> k_node_bits; }
 
-ivec3 cell_at(vec3 place) { return ivec3(floor(clamp(place * inverse_cell(), vec3(-1.0e9), vec3(1.0e9)))); }
+uint node_of(uint one) { return one & ((1u << k_node_bits) - 1u); }
 
-ivec3 cell_of_stray(uint i) { return cell_at(0.5 * (stray_aabbs[i].lower + stray_aabbs[i].upper)); }
-
-uint list_of(ivec3 cell)
+void look_at_node(uint level, uint stray, uint node, uint shift)
 {
-    uvec3 c = uvec3(cell) * uvec3(73856093u, 19349663u, 83492791u); // Teschner et al., "Optimized Spatial Hashing" (2003)
-    return (c.x ^ c.y ^ c.z) % k_cells;
+    uint place = node << shift;
+    if (place >= parameters.body_count) return;
+    if (is_candidate(boxes[stray], unpack(tree_nodes[tree_node(place, shift, args.y)]))) note_met(level, stray, node);
 }
 
-void put_strays_into_cells()
+// Looks at the children of all that has been met in the level before. `shift`: of the children.
+void look_at_level(uint level, uint shift)
 {
-    uint me = gl_LocalInvocationID.x;
-    if (me == 0u) {
-        largest_extent = floatBitsToUint(1.0e-3);
-        large_count = 0u;
-    }
-    for (uint i = me; i < k_cells; i += gl_WorkGroupSize.x)
-        first_of_cell[i] = k_none;
-    barrier();
-    for (uint i = me; i < stray_count; i += gl_WorkGroupSize.x) {
-        stray_aabbs[i] = compute_aabb(box_with_skin(strays[i]));
-        vec3 extent = stray_aabbs[i].upper - stray_aabbs[i].lower;
-        atomicMax(largest_extent, floatBitsToUint(max(max(extent.x, extent.y), max(extent.z, 0.0))));
-    }
-    barrier();
-    for (uint i = me; i < stray_count; i += gl_WorkGroupSize.x)
-        next_of_cell[i] = atomicExchange(first_of_cell[list_of(cell_of_stray(i))], i);
-    barrier();
-}
-
-OrientedBox box_of(uint body, bool strays_too)
-{
-    if (strays_too) return box_with_skin(body);
-    return unpack(oriented_boxes[body]);
-}
-
-bool was_near(uint stray, uint body)
-{
-    return is_candidate(unpack(aabbs[stray]), unpack(aabbs[body])) &&
-           !faces_part(unpack(oriented_boxes[stray]), unpack(oriented_boxes[body]));
-}
-
-void look_at_stray(uint i, uint body, bool strays_too, Aabb box)
-{
-    uint stray = strays[i];
-    bool is_its_turn = !strays_too || body > stray;
-    if (is_its_turn && is_candidate(stray_aabbs[i], box) && !faces_part(box_with_skin(stray), box_of(body, strays_too)) &&
-        !was_near(stray, body))
-        note_near(stray, body);
-}
-
-Aabb aabb_of(uint body, bool strays_too)
-{
-    if (strays_too) return compute_aabb(box_of(body, true));
-    return unpack(aabbs[body]);
-}
-
-void look_at_strays(uint body, uint first, uint stride)
-{
-    bool strays_too = stray_marks[body] != 0u;
-    Aabb box = aabb_of(body, strays_too);
-    for (uint i = first; i < stray_count; i += stride)
-        look_at_stray(i, body, strays_too, box);
-}
-
-void find_near(uint body)
-{
-    bool strays_too = stray_marks[body] != 0u;
-    Aabb box = aabb_of(body, strays_too);
-    // A stray whose box touches this one has its centre no farther from it than half its extent, and what is rounded.
-    vec3 size = max(abs(box.lower), abs(box.upper));
-    float farthest = max(max(size.x, size.y), size.z);
-    float reach = 0.51 * uintBitsToFloat(largest_extent) + 1.0e-5 * farthest;
-    ivec3 first = cell_at(box.lower - reach);
-    vec3 counts = vec3(cell_at(box.upper + reach) - first) + 1.0;
-    bool looks_at_all = !(counts.x * counts.y * counts.z <= float(k_most_cells)) || !is_finite(uintBitsToFloat(largest_extent));
-    if (looks_at_all) {
-        uint place = atomicAdd(large_count, 1u);
-        if (place < k_most_large)
-            large_bodies[place] = body;
-        else
-            look_at_strays(body, 0u, 1u);
-        return;
-    }
-    uvec3 cells = uvec3(max(counts, vec3(0.0)));
-    for (uint c = 0u; c < cells.x * cells.y * cells.z; ++c) {
-        ivec3 cell = first + ivec3(c % cells.x, c / cells.x % cells.y, c / (cells.x * cells.y));
-        for (uint i = first_of_cell[list_of(cell)]; i != k_none; i = next_of_cell[i])
-            if (cell_of_stray(i) == cell) look_at_stray(i, body, strays_too, box);
+    for (uint i = gl_LocalInvocationID.x; i < k_tree_children * met_count(level - 1u); i += gl_WorkGroupSize.x) {
+        uint parent = met_in(level - 1u, i / k_tree_children);
+        look_at_node(level, stray_of(parent), node_of(parent) * k_tree_children + i % k_tree_children, shift);
     }
 }
 
 void main()
 {
-    if (gl_LocalInvocationID.x == 0u)
-        stray_count = counters[k_counter_search_count] == 0u ? counters[k_counter_stray_count] : 0u;
+    uint me = gl_LocalInvocationID.x;
+    uint stray_count = strays_in_tree(counters[k_counter_stray_count]);
+    if (counters[k_counter_search_count] != 0u || first_stray() >= stray_count) return;
+    uint count = min(stray_count - first_stray(), k_strays_a_group);
+    if (me < count) boxes[me] = compute_aabb(box_with_skin(strays[first_stray() + me]));
+    if (me < 2u) met_counts[me] = 0u;
+    if (me == 0u) wide = 0u;
     barrier();
-    if (stray_count == 0u) return;
-    // Cells are made by each group for itself, so there are no more groups than run at a time.
-    uint invocations = gl_NumWorkGroups.x * gl_NumWorkGroups.y * gl_WorkGroupSize.x;
-    put_strays_into_cells();
-    for (uint body = item_index(); body < parameters.body_count; body += invocations)
-        find_near(body);
+    uint shift = args.z;
+    uint first_nodes = tree_level_size(parameters.body_count, shift);
+    for (uint i = me; i < count * first_nodes; i += gl_WorkGroupSize.x)
+        look_at_node(0u, i / first_nodes, i % first_nodes, shift);
     barrier();
-    for (uint i = 0u; i < min(large_count, k_most_large); ++i)
-        look_at_strays(large_bodies[i], gl_LocalInvocationID.x, gl_WorkGroupSize.x);
+    uint level = 0u;
+    for (; shift > 0u; shift -= k_tree_bits) {
+        level += 1u;
+        if (me == 0u) met_counts[(level + 1u) % 3u] = 0u;
+        look_at_level(level, shift - k_tree_bits);
+        barrier();
+    }
+    for (uint i = me; i < met_count(level); i += gl_WorkGroupSize.x) {
+        uint leaf = met_in(level, i);
+        if ((wide >> stray_of(leaf) & 1u) != 0u) continue;
+        uint stray = strays[first_stray() + stray_of(leaf)];
+        look_at(stray, box_with_skin(stray), sort_values[node_of(leaf)]);
+    }
+    if (me < count && (wide >> me & 1u) != 0u)
+        wide_strays[atomicAdd(counters[k_counter_wide_strays], 1u)] = strays[first_stray() + me];
 }

@@ -1,61 +1,48 @@
 // SPDX-License-Identifier: MIT
-// CPU twin of search_strays.comp.glsl. Each body is compared with several strays side by side.
+// CPU twin of search_strays.comp.glsl. Strays side by side go through the tree together, each to its end.
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <span>
+#include <bit>
 
-#include "broad_phase/box_now.h"
 #include "broad_phase/broad_phase.h"
 #include "broad_phase/lane_search.h"
+#include "broad_phase/note_near.h"
+#include "device/cpu/instruction_set.h"
 
 namespace talus::engine {
 
-static bool was_near(const CpuState& state, uint stray, uint body) {
-    return is_candidate(state.aabbs[stray], state.aabbs[body]) &&
-           !faces_part(state.oriented_boxes[stray], state.oriented_boxes[body]);
-}
-
 static void search_strays_on_cpu(CpuState& state, const Launch& launch) {
-    const Array<uint>& counters = state.counters;
-    if (counters[k_counter_search_count] != 0) return;
-    const std::span<const uint> strays(state.strays.data, counters[k_counter_stray_count]);
-    if (strays.empty()) return;
-    std::array<OrientedBox, k_most_strays> oriented;
-    std::array<Aabb, k_most_strays> boxes;
-    std::ranges::transform(strays, oriented.begin(), [&](uint stray) { return box_with_skin(state, stray); });
-    std::transform(oriented.begin(), oriented.begin() + strays.size(), boxes.begin(), compute_aabb);
-    SearchMemory& memory = SearchMemory::of(state);
-    memory.take_boxes(state, std::span(boxes).first(strays.size()));
-    std::vector<bool> is_stray(state.parameters.body_count);
-    for (const uint stray : strays)
-        is_stray[stray] = true;
-
-    const Array<uint> marks = state.words(launch.bound("StrayMarks"));
-    std::fill_n(marks.data, state.parameters.body_count, 0u);
-    const auto note_near = [&](uint stray, uint body) {
-        std::atomic_ref(marks[stray]).store(k_stray_near, std::memory_order_relaxed);
-        const uint place = std::atomic_ref(counters[k_counter_near_pairs]).fetch_add(1);
-        if (place < most_stray_pairs(state.parameters.body_count))
-            state.near_pairs[place] = make_pair(stray, body);
-        else
-            std::atomic_ref(counters[k_counter_search_count]).store(state.parameters.body_count);
+    const uint count = strays_in_tree(state.counters[k_counter_stray_count]);
+    if (state.counters[k_counter_search_count] != 0 || count == 0) return;
+    const uint body_count = state.parameters.body_count, top = launch.args[1], first_shift = launch.args[2];
+    const TreeView tree{state.tree_nodes.data, state.oriented_boxes.data, state.sort_values.data, top, body_count};
+    const StraySearch search{state, state.words(launch.bound("StrayMarks")), true};
+    std::sort(state.strays.data, state.strays.data + count); // neighbours take much the same way
+    struct Group {
+        const StraySearch& search;
+        const TreeView& tree;
+        const uint* strays;
+        std::array<OrientedBox, k_most_lanes> oriented;
     };
-    state.parallel_parts(state.parameters.body_count, SearchMemory::k_part, [&](uint, uint first, uint end) {
-        std::vector<uint> near;
-        for (uint body = first; body < end; ++body) {
-            const OrientedBox other = is_stray[body] ? box_with_skin(state, body) : state.oriented_boxes[body];
-            near.clear();
-            memory.find_partners(is_stray[body] ? compute_aabb(other) : state.aabbs[body], 0,
-                                 static_cast<uint>(strays.size()), near);
-            for (const uint i : near)
-                if ((!is_stray[body] || body > strays[i]) && !faces_part(oriented[i], other) &&
-                    !was_near(state, strays[i], body))
-                    note_near(strays[i], body);
+    const TakePartner take = [](void* context, uint place, uint lanes) {
+        const Group& group = *static_cast<const Group*>(context);
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+            group.search.look_at(group.strays[lane], group.oriented[lane], group.tree.bodies[place]);
         }
+    };
+    const uint width = lane_search().lanes;
+    state.parallel_parts(count, width, [&](uint, uint first, uint end) {
+        Group group{search, tree, state.strays.data + first, {}};
+        std::array<Aabb, k_most_lanes> boxes;
+        for (uint lane = 0; lane < end - first; ++lane) {
+            group.oriented[lane] = box_with_skin(state, group.strays[lane]);
+            boxes[lane] = compute_aabb(group.oriented[lane]);
+        }
+        lane_search().search_tree_for(tree, first_shift, boxes.data(), end - first, take, &group);
     });
 }
 
-const Kernel search_strays{"broad_phase/search_strays", search_strays_on_cpu, 256};
+const Kernel search_strays{"broad_phase/search_strays", search_strays_on_cpu, 16};
 
 } // namespace talus::engine

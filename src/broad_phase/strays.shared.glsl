@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: MIT
-// A few bodies that have left the boxes of the last search get boxes anew, and the list of pairs gets those of their pairs that it has
+// Bodies that have left the boxes of the last search get boxes anew, and the list of pairs gets those of their pairs that it has
 // not. Pairs that are near no more stay in it until all are searched for, so all others keep their places, and a constraint graph of
 // them may last.
 
-// How many bodies of so many may be searched for by themselves: a thousandth, as each looks at all strays.
-inline uint most_strays(uint body_count) { return min(max(body_count / 1024u, 64u), k_most_strays); }
+// How many bodies of so many may be searched for by themselves.
+inline uint most_strays(uint body_count, bool has_tree)
+{
+    return choose(has_tree, max(body_count / k_share_of_strays, k_compared_strays), k_compared_strays);
+}
 
-// Of these: that are in the list, and that are near.
-inline uint most_stray_pairs(uint body_count) { return k_pairs_a_stray * most_strays(body_count); }
+// Of so many, those that search the tree: all, or none where they are so few that all bodies are sooner compared with each.
+inline uint strays_in_tree(uint stray_count) { return choose(stray_count > k_compared_strays, stray_count, 0u); }
+
+// Of these: that are near, and were not before.
+inline uint most_near_pairs(uint body_count, bool has_tree)
+{
+    return min(k_near_a_stray * most_strays(body_count, has_tree), k_most_near_pairs);
+}
+
+// Slots of NearTable: a power of two, of which at most half are in use.
+inline uint near_table_size(uint body_count, bool has_tree)
+{
+    return 2u << (findMSB(most_near_pairs(body_count, has_tree) - 1u) + 1);
+}
 
 // Whether the list has had so many pairs added since it was made that a new one would be much shorter.
 inline bool is_much_added(uint added, uint pair_count) { return added > pair_count / k_share_added; }
@@ -15,6 +30,9 @@ inline bool is_much_added(uint added, uint pair_count) { return added > pair_cou
 // In StrayMarks: of a stray, and of one that is near to somebody it was not near to.
 const uint k_stray = 1u;
 const uint k_stray_near = 2u;
+
+// In NearPairs: of a pair that is in the list.
+inline bool is_known(Pair pair) { return pair.body_a == k_none; }
 
 // The order in which pairs are added.
 inline bool comes_before(Pair a, Pair b)

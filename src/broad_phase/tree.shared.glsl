@@ -12,6 +12,8 @@ const uint k_tree_children = 1u << k_tree_bits; // of a node; those of 16 levels
 const uint k_tree_group = 256u; // nodes that one work group treats
 const uint k_tree_shift = 8u;   // and how much higher the one node is that they come to
 
+const uint k_most_first_nodes = 512u; // that strays begin with
+
 const uint k_kept_partners = 8u; // of a body, that the search remembers from counting to writing
 
 // The shift of the root.
@@ -27,6 +29,16 @@ inline uint tree_top(uint body_count)
 inline uint tree_level_size(uint body_count, uint shift)
 {
     return (body_count + (1u << shift) - 1u) >> shift;
+}
+
+// The shift from which on strays go down the tree: those above are not made for them, as each is a launch that waits for the one before.
+inline uint strays_begin_at(uint body_count)
+{
+    uint shift = k_tree_shift;
+    while (tree_level_size(body_count, shift) > k_most_first_nodes)
+        shift += k_tree_shift;
+    uint top = tree_top(body_count);
+    return shift < top ? shift : top;
 }
 
 // Index of the node of a place. Above a level of 4^d nodes are 1 + 4 + ... + 4^(d-1): binary 0101...01.

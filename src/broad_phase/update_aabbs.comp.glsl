@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a body slot: its box with a skin, and the bounding box of that.
-// Reads: Counters, Poses, Velocities, Shapes.
+// One invocation is a body slot, or a stray: its box with a skin, and the bounding box of that.
+// args.x: 1 for strays, where no more are searched for.
+// Reads: Counters, Poses, Velocities, Shapes, Strays.
 // Writes: OrientedBoxes, Aabbs.
-// Needs: a barrier after find_strays.
-// Overflow: none.
+// Needs: a barrier after find_strays; for strays, after add_pairs.
+// Overflow: where there was no room for the pairs of strays their boxes stay as they are.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
@@ -14,6 +15,7 @@ layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
+layout(std430) readonly buffer Strays { uint strays[]; };
 layout(std430) writeonly buffer OrientedBoxes { OrientedBoxCells oriented_boxes[]; };
 layout(std430) writeonly buffer Aabbs { AabbCells aabbs[]; };
 
@@ -21,8 +23,12 @@ layout(std430) writeonly buffer Aabbs { AabbCells aabbs[]; };
 
 void main()
 {
-    uint body = item_index();
-    if (body >= counters[k_counter_search_count]) return;
+    bool for_strays = args.x == 1u;
+    bool have_their_pairs = counters[k_counter_search_count] == 0u && counters[k_counter_did_not_fit] == 0u;
+    uint of_strays = have_their_pairs ? counters[k_counter_stray_count] : 0u;
+    uint item = item_index();
+    if (item >= (for_strays ? of_strays : counters[k_counter_search_count])) return;
+    uint body = for_strays ? strays[item] : item;
     OrientedBox box = box_with_skin(body);
     oriented_boxes[body] = pack(box);
     aabbs[body] = pack(compute_aabb(box));

@@ -45,8 +45,9 @@ namespace talus::engine {
     X(ScanSums, scan_sums, uint, "u", Scratch)                                                                         \
     X(Pairs, pairs, Pair, "uu", State)                                                                                 \
     X(Strays, strays, uint, "u", Scratch)                                                                              \
-    X(KnownPairs, known_pairs, Pair, "uu", Scratch)                                                                    \
+    X(WideStrays, wide_strays, uint, "u", Scratch)                                                                     \
     X(NearPairs, near_pairs, Pair, "uu", Scratch)                                                                      \
+    X(NearTable, near_table, uint, "u", Scratch)                                                                       \
     /* narrow phase */                                                                                                 \
     X(PairTable, pair_table, uint, "u", Scratch)                                                                       \
     X(OldManifolds, old_manifolds, Manifold, "uuuufffufffffffu", State)                                                \

@@ -108,8 +108,8 @@ const uint k_counter_graph_bodies = 31u; // body slots
 const uint k_counter_graph_pairs = 32u;
 // The search for the pairs of a few bodies.
 const uint k_counter_stray_count = 33u; // bodies that have left their boxes, until it is known that they are too many
-const uint k_counter_known_pairs = 34u; // of strays, in the list already
-const uint k_counter_near_pairs = 35u;  // of strays, that are near now
+const uint k_counter_wide_strays = 34u; // that meet too much in the tree
+const uint k_counter_near_pairs = 35u;  // of strays, that are near now, and were not
 const uint k_counter_added_pairs = 36u; // since the last search of all
 const uint k_counter_strayed = 37u;     // 1 where this step had to search, a few bodies or all
 const uint k_counter_wanted_pairs = 38u; // that the list would have with those of strays, where there is no room for them
@@ -139,11 +139,12 @@ const uint k_search_strays = 1u;
 const uint k_search_all = 2u;
 
 // Bodies that are searched for by themselves where they have left their boxes; where there are more, all are.
-const uint k_most_strays = 512u;       // in worlds of half a million bodies and more
-const uint k_pairs_a_stray = 16u;      // that are in the list, and that are near, of all strays together
-const uint k_most_stray_pairs = k_most_strays * k_pairs_a_stray;
-const uint k_most_new_pairs = 2048u;   // of theirs, in a step
-const uint k_share_added = 8u;         // of the pairs; where more have been added, all are searched for
+const uint k_compared_strays = 64u;    // with all bodies, one by one
+const uint k_share_of_strays = 8u;     // of the bodies, where these are in a tree
+const uint k_near_a_stray = 4u;        // that it was not near to, of all strays together
+const uint k_most_near_pairs = 16384u; // of all
+const uint k_most_new_pairs = 2048u;   // that are not in the list, in a step
+const uint k_share_added = 32u;        // of the pairs; where more have been added, all are searched for
 
 // In k_counter_graph_due: nor will this step's be the next one's. A body that has become a hub keeps the colours of its old
 // contacts for one step.
