@@ -4,8 +4,8 @@
 #include "saved_state.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "broad_phase/broad_phase.h"
 #include "state/formulas.h"
 #include "step_results.h"
 
@@ -110,10 +110,7 @@ void Simulation::restore(const SavedState& saved) {
     for (const OrientedBox& box : saved.boxes)
         aabbs.push_back(compute_aabb(box));
     write_all(BufferId::Aabbs, aabbs);
-    std::vector<uint> order(
-        saved.boxes.size()); // of a tree for strays: any, as the next search of all makes a good one
-    std::iota(order.begin(), order.end(), 0u);
-    write_all(BufferId::SortValues, order);
+    write_all(BufferId::SortValues, order_in_tree(aabbs)); // for strays, until all are searched for
     if (watches_contacts()) {
         std::vector<uint> states = saved.contact_states;
         states.resize(pair_count, k_contact_apart);

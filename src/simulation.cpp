@@ -225,8 +225,8 @@ void Simulation::reserve_bodies(uint count) {
     if (has_loads) grow_everywhere(BufferId::Loads, capacity);
     grow_everywhere(BufferId::Strays, most_strays(capacity, true));
     grow_everywhere(BufferId::WideStrays, most_strays(capacity, true));
-    grow_everywhere(BufferId::NearPairs, most_near_pairs(capacity, true));
-    grow_everywhere(BufferId::NearTable, near_table_size(capacity, true));
+    grow_everywhere(BufferId::NearPairs, most_near_pairs(capacity));
+    grow_everywhere(BufferId::NearTable, near_table_size(capacity));
     grow_everywhere(BufferId::SpreadSums, capacity / k_spread_group + 1);
     grow_everywhere(BufferId::BodyColours, std::size_t{k_body_words} * capacity);
     grow_everywhere(BufferId::ToldLoads, std::size_t{k_told_words + 1} * capacity);

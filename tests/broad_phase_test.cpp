@@ -485,10 +485,11 @@ TEST_P(BroadPhases, the_bits_do_not_depend_on_whether_strays_were_searched_for_b
 }
 
 TEST_P(BroadPhases, many_strays_are_a_search_for_all) {
-    const uint most = engine::most_strays(100, true);
+    constexpr uint k_bodies = 1000;
+    const uint most = engine::most_strays(k_bodies, true);
     for (const uint count : {most, most + 1}) {
         std::vector<BodyDefinition> bodies;
-        for (uint i = 0; i < 100; ++i) {
+        for (uint i = 0; i < k_bodies; ++i) {
             bodies.push_back(box_at({2.0f * static_cast<float>(i), 0.0f, 0.0f}));
             if (i < count) bodies.back().velocity.linear = {0.0f, 0.06f, 0.0f}; // 2 mm in two steps, not in one
         }
@@ -505,6 +506,14 @@ TEST_P(BroadPhases, many_strays_are_a_search_for_all) {
         }
         EXPECT_GT(strayed, 0u);
         EXPECT_EQ(searched, count > most ? strayed : 0u) << count;
+        if (count > most) continue;
+        while (run.counter(engine::k_counter_all_strays) + most <= k_bodies)
+            run.step();
+        for (int i = 0; i < 4; ++i) {
+            run.step();
+            searched += run.counter(engine::k_counter_searched);
+        }
+        EXPECT_EQ(searched, 1u) << "once as many have strayed as there are bodies";
     }
 }
 

@@ -5,9 +5,11 @@
 #include <array>
 #include <limits>
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
+#include "broad_phase/broad_phase.h"
 #include "state/formulas.h"
 #include "tests/bodies.h"
 #include "tests/devices.h"
@@ -75,6 +77,25 @@ TEST(TreeKeys, put_small_bodies_before_large_ones_and_empty_slots_last) {
     EXPECT_LT(engine::tree_key(cube(infinity, 1.0f), grid), engine::k_absent_key);
     EXPECT_EQ(engine::tree_key(cube(nan, 1.0f), grid), engine::k_absent_key);
     EXPECT_EQ(engine::tree_key(engine::empty_box(), grid), engine::k_absent_key);
+}
+
+TEST(TreeOrder, of_restored_bodies_goes_from_neighbour_to_neighbour_whatever_their_slots) {
+    constexpr uint k_side = 8, k_bodies = k_side * k_side * k_side;
+    std::vector<engine::Aabb> boxes;
+    for (uint i = 0; i < k_bodies; ++i) {
+        const engine::vec3 centre(static_cast<float>(i % k_side), static_cast<float>(i / k_side % k_side),
+                                  static_cast<float>(i / (k_side * k_side)));
+        boxes.push_back({centre - 0.4f, 0.0f, centre + 0.4f, 1u});
+    }
+    std::ranges::shuffle(boxes, std::mt19937(3));
+    boxes[7] = engine::empty_box(); // an empty slot
+    const std::vector<uint> order = engine::order_in_tree(boxes);
+    EXPECT_EQ(order.back(), 7u);
+    EXPECT_EQ(std::set(order.begin(), order.end()).size(), k_bodies);
+    for (std::size_t i = 1; i + 1 < order.size(); ++i) {
+        const engine::vec3 step = abs(boxes[order[i]].lower - boxes[order[i - 1]].lower);
+        EXPECT_LT(step.x + step.y + step.z, 2.1f) << i;
+    }
 }
 
 TEST(TreeGrid, has_fine_cells_also_far_from_the_origin_and_with_a_body_astray) {

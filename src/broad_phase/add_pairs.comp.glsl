@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One group: the pairs of strays that are near and not in the list come behind it, in the order of their slots.
-// Reads: NearPairs.
+// Reads: Counters, NearPairs.
 // Writes: Pairs, Counters.
 // Needs: a barrier after find_known_pairs.
 // Overflow: where very many are new all are searched for. Where there is no room for all, the list stays as it is, and the step does

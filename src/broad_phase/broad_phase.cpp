@@ -3,6 +3,9 @@
 #include "broad_phase/broad_phase.h"
 
 #include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "log.h"
 #include "primitives/primitives.h"
@@ -14,6 +17,7 @@ namespace talus::engine {
 // Nobody wants the list of launched bodies before the resolution makes it.
 static constexpr std::initializer_list<Binding> k_marks{{"StrayMarks", BufferId::LaunchedBodies}};
 
+// The order stays in SortValues until the next search of all, also where this is launched and sorts nobody.
 static void sort_bodies(Device& device, uint body_count) {
     sort_by_key(device, {.keys = BufferId::SortKeys,
                          .values = BufferId::SortValues,
@@ -33,6 +37,20 @@ static void sort_along_widest_axis(Device& device, uint body_count) {
 
 static uint body_capacity(const Device& device) {
     return static_cast<uint>(device.size(BufferId::Aabbs) / sizeof(Aabb));
+}
+
+std::vector<uint> order_in_tree(std::span<const Aabb> boxes) {
+    SpreadSum sum = empty_spread();
+    for (const Aabb& box : boxes)
+        sum = add_spreads(sum, spread_of(box));
+    const TreeGrid grid = choose_tree_grid(sum, static_cast<uint>(boxes.size()));
+    std::vector<std::pair<uint, uint>> keys; // and the slots
+    for (const Aabb& box : boxes)
+        keys.emplace_back(tree_key(box, grid), static_cast<uint>(keys.size()));
+    std::ranges::sort(keys);
+    std::vector<uint> order(keys.size());
+    std::ranges::transform(keys, order.begin(), &std::pair<uint, uint>::second);
+    return order;
 }
 
 uint boxes_of_search(uint body_capacity) {
@@ -107,7 +125,7 @@ static void search_for_strays(Device& device, const StepPlan& plan, bool has_tre
         build_tree_of(device, plan.body_count, top, true);
         device.run({.kernel = search_strays,
                     .items = most_strays(plan.body_count, has_tree),
-                    .args = {0, top, strays_begin_at(plan.body_count)},
+                    .args = {strays_begin_at(plan.body_count), top},
                     .bindings = k_marks});
     }
     constexpr uint most_items = 1u << 17; // each group has a beginning to make
@@ -115,7 +133,7 @@ static void search_for_strays(Device& device, const StepPlan& plan, bool has_tre
                 .items = std::min(plan.body_count, most_items),
                 .args = {has_tree},
                 .bindings = k_marks});
-    device.run({.kernel = find_known_pairs, .items = plan.pair_capacity, .args = {has_tree}, .bindings = k_marks});
+    device.run({.kernel = find_known_pairs, .items = plan.pair_capacity, .bindings = k_marks});
     device.run({.kernel = add_pairs, .items = 1});
     device.run({.kernel = update_aabbs, .items = most_strays(plan.body_count, has_tree), .args = {1}});
 }

@@ -2,6 +2,9 @@
 // Broad phase: boxes -> candidate pairs (thesis, section 3.2).
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "device/device.h"
 
 namespace talus::engine {
@@ -14,6 +17,10 @@ void broad_phase(Device&, const StepPlan&);
 /// Room for those that a search of so many body slots puts in order, in either way: records of TreeNodes or
 /// SortedAabbs.
 uint boxes_of_search(uint body_capacity);
+
+/// The slots of bodies in an order for the tree. What a search of all makes is as good, and is the same on every
+/// device.
+std::vector<uint> order_in_tree(std::span<const Aabb> boxes);
 
 extern const Kernel find_strays;
 extern const Kernel search_strays;

@@ -26,8 +26,6 @@ layout(std430) writeonly buffer NearPairs { Pair near_pairs[]; };
 layout(std430) buffer NearTable { uint near_table[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
-bool has_tree() { return args.x == 1u; }
-
 #include "broad_phase/box_now.glsl"
 #include "broad_phase/note_near.glsl"
 
@@ -42,7 +40,7 @@ shared Aabb boxes[k_tile];
 void count_strays()
 {
     uint count = counters[k_counter_stray_count];
-    searched_tree = has_tree() && strays_in_tree(count) > 0u;
+    searched_tree = args.x == 1u && strays_in_tree(count) > 0u;
     stray_count = searched_tree ? counters[k_counter_wide_strays] : count;
     if (counters[k_counter_search_count] != 0u) stray_count = 0u;
 }

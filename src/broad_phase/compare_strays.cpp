@@ -13,8 +13,7 @@ namespace talus::engine {
 
 static void compare_strays_on_cpu(CpuState& state, const Launch& launch) {
     const std::span strays(state.strays.data, state.counters[k_counter_stray_count]);
-    const bool has_tree = launch.args[0] == 1;
-    const bool searched_tree = has_tree && strays_in_tree(static_cast<uint>(strays.size())) > 0;
+    const bool searched_tree = launch.args[0] == 1 && strays_in_tree(static_cast<uint>(strays.size())) > 0;
     if (state.counters[k_counter_search_count] != 0 || strays.empty() || searched_tree) return;
     std::array<OrientedBox, k_compared_strays> oriented;
     std::array<Aabb, k_compared_strays> boxes;
@@ -22,7 +21,7 @@ static void compare_strays_on_cpu(CpuState& state, const Launch& launch) {
     std::transform(oriented.begin(), oriented.begin() + strays.size(), boxes.begin(), compute_aabb);
     SearchMemory& memory = SearchMemory::of(state);
     memory.take_boxes(state, std::span(boxes).first(strays.size()));
-    const StraySearch search{state, state.words(launch.bound("StrayMarks")), has_tree};
+    const StraySearch search{state, state.words(launch.bound("StrayMarks"))};
     state.parallel_parts(state.parameters.body_count, SearchMemory::k_part, [&](uint, uint first, uint end) {
         std::vector<uint> near;
         for (uint body = first; body < end; ++body) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // One invocation is an entry of the list of pairs: whether the pair is one that a stray has been found near to again.
-// args.x: 1 where there is a tree.
 // Reads: Counters, Pairs, StrayMarks, NearTable.
 // Writes: NearPairs, those that are in the list.
 // Needs: a barrier after compare_strays.
@@ -25,7 +24,7 @@ void main()
     if (entry >= counters[k_counter_pair_demand]) return;
     Pair pair = pairs[entry];
     if (!is_near_to_somebody(pair.body_a) && !is_near_to_somebody(pair.body_b)) return;
-    uint last = near_table_size(parameters.body_count, args.x == 1u) - 1u;
+    uint last = near_table_size(parameters.body_count) - 1u;
     uint slot = hash_pair(pair.body_a, pair.body_b) & last;
     uint place = near_table[slot];
     while (place != k_none && !is_same_pair(near_pairs[place], pair)) {

@@ -12,7 +12,7 @@ static void find_known_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& counters = state.counters;
     if (counters[k_counter_near_pairs] == 0 || counters[k_counter_search_count] != 0) return;
     const Array<uint> marks = state.words(launch.bound("StrayMarks"));
-    const uint last = near_table_size(state.parameters.body_count, launch.args[0] == 1) - 1;
+    const uint last = near_table_size(state.parameters.body_count) - 1;
     state.parallel(counters[k_counter_pair_demand], [&](uint entry) {
         const Pair pair = state.pairs[entry];
         if (marks[pair.body_a] != k_stray_near && marks[pair.body_b] != k_stray_near) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: whether it has left the box that the last search for pairs had of it. Then it is a stray, whose
-// pairs are searched for anew. Where there are many strays, or many pairs have been added to the list since it was made, or it is
-// not of these slots, all pairs are. Also whether any body is awake, where some may sleep.
+// pairs are searched for anew. Where there are many strays, or there have been since the list was made, or many pairs have been added
+// to it, or it is not of these slots, all pairs are. Also whether any body is awake, where some may sleep.
 // args.x: 1 where bodies are in a tree.
 // Reads: Poses, Velocities, Shapes, OrientedBoxes.
 // Writes: Counters; Strays, in any order; StrayMarks and NearTable, which is empty then, unless all are searched for.
@@ -42,15 +42,15 @@ void main()
     bool asleep = may_sleep && is_asleep(unpack(poses[body]));
     if (may_sleep && !asleep) note_if_awake(body);
     if (counters[k_counter_search_count] != 0u) return; // it is known already
-    bool has_tree = args.x == 1u;
-    for (uint slot = body; slot < near_table_size(parameters.body_count, has_tree); slot += parameters.body_count)
+    for (uint slot = body; slot < near_table_size(parameters.body_count); slot += parameters.body_count)
         near_table[slot] = k_none;
     stray_marks[body] = 0u;
     bool other_list = counters[k_counter_searched_slots] != parameters.body_count;
     if (!other_list && asleep) return; // where it was
     if (!other_list && is_within(box_now(body), unpack(oriented_boxes[body]))) return;
-    bool takes_all = other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
-    uint most = most_strays(parameters.body_count, has_tree);
+    bool takes_all = other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]) ||
+                     is_out_of_order(counters[k_counter_all_strays], parameters.body_count);
+    uint most = most_strays(parameters.body_count, args.x == 1u);
     bool are_many = counters[k_counter_stray_count] >= most; // known without adding to what all add to
     uint place = takes_all || are_many ? most : atomicAdd(counters[k_counter_stray_count], 1u);
     if (place >= most) {

@@ -23,10 +23,10 @@ static void find_strays_on_cpu(CpuState& state, const Launch& launch) {
     const uint body_count = state.parameters.body_count;
     if (state.parameters.rest_steps > 0) note_who_is_awake(state);
     const bool other_list = counters[k_counter_searched_slots] != body_count;
-    const bool takes_all =
-        other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]);
-    const bool has_tree = launch.args[0] == 1;
-    const uint most = most_strays(body_count, has_tree);
+    const bool takes_all = other_list ||
+                           is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]) ||
+                           is_out_of_order(counters[k_counter_all_strays], body_count);
+    const uint most = most_strays(body_count, launch.args[0] == 1);
     std::atomic<uint> count = other_list ? most + 1 : 0;
     const LaneSearch& search = lane_search();
     state.parallel_parts(other_list ? 0 : body_count, search.lanes, [&](uint, uint first, uint end) {
@@ -49,7 +49,7 @@ static void find_strays_on_cpu(CpuState& state, const Launch& launch) {
     std::fill_n(marks.data, body_count, 0u);
     for (uint i = 0; i < count; ++i)
         marks[state.strays[i]] = k_stray;
-    std::fill_n(state.near_table.data, near_table_size(body_count, has_tree), k_none);
+    std::fill_n(state.near_table.data, near_table_size(body_count), k_none);
 }
 
 const Kernel find_strays{"broad_phase/find_strays", find_strays_on_cpu};

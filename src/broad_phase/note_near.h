@@ -13,7 +13,6 @@ namespace talus::engine {
 struct StraySearch {
     const CpuState& state;
     Array<uint> marks; ///< StrayMarks
-    bool has_tree;
 
     bool is_stray(uint body) const { return std::atomic_ref(marks[body]).load(std::memory_order_relaxed) != 0; }
 
@@ -36,13 +35,13 @@ private:
         const uint body_count = state.parameters.body_count;
         std::atomic_ref(marks[stray]).store(k_stray_near, std::memory_order_relaxed);
         const uint place = std::atomic_ref(state.counters[k_counter_near_pairs]).fetch_add(1);
-        if (place >= most_near_pairs(body_count, has_tree)) {
+        if (place >= most_near_pairs(body_count)) {
             std::atomic_ref(state.counters[k_counter_search_count]).store(body_count);
             return;
         }
         const Pair pair = make_pair(stray, body);
         state.near_pairs[place] = pair;
-        const uint last = near_table_size(body_count, has_tree) - 1;
+        const uint last = near_table_size(body_count) - 1;
         uint slot = hash_pair(pair.body_a, pair.body_b) & last;
         for (uint expected = k_none; !std::atomic_ref(state.near_table[slot]).compare_exchange_strong(expected, place);
              expected = k_none)

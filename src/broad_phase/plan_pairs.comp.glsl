@@ -40,6 +40,8 @@ void take_pairs(bool due)
         counters[k_counter_did_not_fit] |= k_fit_pairs;
         counters[k_counter_searched_slots] = k_none; // not all were written
     }
+    if (counters[k_counter_did_not_fit] != 0u) return;
+    counters[k_counter_all_strays] = due ? 0u : counters[k_counter_all_strays] + counters[k_counter_stray_count];
 }
 
 void main()

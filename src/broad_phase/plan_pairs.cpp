@@ -32,6 +32,8 @@ static void take_pairs(CpuState& state, bool due, Search launched) {
         counters[k_counter_did_not_fit] |= k_fit_pairs;
         counters[k_counter_searched_slots] = k_none; // not all were written
     }
+    if (counters[k_counter_did_not_fit] != 0) return;
+    counters[k_counter_all_strays] = due ? 0 : counters[k_counter_all_strays] + counters[k_counter_stray_count];
 }
 
 static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {

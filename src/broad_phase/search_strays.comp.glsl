@@ -2,7 +2,7 @@
 // A group has some strays, and goes down the tree with all of them, level by level: nodes that overlap a stray's box have their children
 // looked at in the next level. What was near already as the boxes are that the list was made of is in it, and is not found again.
 // Strays that meet too much for that are left to compare_strays.
-// args.y: the root's shift. args.z: that of the nodes that it begins with.
+// args.x: the shift of the nodes that it begins with. args.y: the root's.
 // Reads: Counters, Poses, Velocities, Shapes, Strays, TreeNodes, with the strays' boxes as they are now, SortValues, Aabbs,
 // OrientedBoxes.
 // Writes: NearPairs and NearTable, in any order; StrayMarks, of those that are near to somebody; WideStrays, in any order; Counters.
@@ -31,8 +31,6 @@ layout(std430) writeonly buffer NearPairs { Pair near_pairs[]; };
 layout(std430) buffer NearTable { uint near_table[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
-bool has_tree() { return true; }
-
 #include "broad_phase/box_now.glsl"
 #include "broad_phase/note_near.glsl"
 
@@ -44,6 +42,7 @@ const uint k_most_met = 2048u; // in a level
 shared Aabb boxes[k_strays_a_group]; // of the strays, as they are now
 shared uint met[2u * k_most_met]; // in two levels by turns
 shared uint met_counts[3]; // of three: the third is emptied for the next level
+shared uint stray_count; // of all groups; 0 where there is nothing to do
 shared uint wide; // a bit for each stray that has met more than there is room for
 
 uint first_stray() { return group_index() * k_strays_a_group; }
@@ -84,14 +83,17 @@ void look_at_level(uint level, uint shift)
 void main()
 {
     uint me = gl_LocalInvocationID.x;
-    uint stray_count = strays_in_tree(counters[k_counter_stray_count]);
-    if (counters[k_counter_search_count] != 0u || first_stray() >= stray_count) return;
+    if (me == 0u) { // for all, as another group may find that all are to be searched for
+        stray_count = counters[k_counter_search_count] == 0u ? strays_in_tree(counters[k_counter_stray_count]) : 0u;
+        wide = 0u;
+    }
+    if (me < 2u) met_counts[me] = 0u;
+    barrier();
+    if (first_stray() >= stray_count) return;
     uint count = min(stray_count - first_stray(), k_strays_a_group);
     if (me < count) boxes[me] = compute_aabb(box_with_skin(strays[first_stray() + me]));
-    if (me < 2u) met_counts[me] = 0u;
-    if (me == 0u) wide = 0u;
     barrier();
-    uint shift = args.z;
+    uint shift = args.x;
     uint first_nodes = tree_level_size(parameters.body_count, shift);
     for (uint i = me; i < count * first_nodes; i += gl_WorkGroupSize.x)
         look_at_node(0u, i / first_nodes, i % first_nodes, shift);

@@ -14,10 +14,10 @@ namespace talus::engine {
 static void search_strays_on_cpu(CpuState& state, const Launch& launch) {
     const uint count = strays_in_tree(state.counters[k_counter_stray_count]);
     if (state.counters[k_counter_search_count] != 0 || count == 0) return;
-    const uint body_count = state.parameters.body_count, top = launch.args[1], first_shift = launch.args[2];
+    const uint body_count = state.parameters.body_count, first_shift = launch.args[0], top = launch.args[1];
     const TreeView tree{state.tree_nodes.data, state.oriented_boxes.data, state.sort_values.data, top, body_count};
-    const StraySearch search{state, state.words(launch.bound("StrayMarks")), true};
-    std::sort(state.strays.data, state.strays.data + count); // neighbours take much the same way
+    const StraySearch search{state, state.words(launch.bound("StrayMarks"))};
+    std::sort(state.strays.data, state.strays.data + count); // they are in any order; neighbours take much the same way
     struct Group {
         const StraySearch& search;
         const TreeView& tree;

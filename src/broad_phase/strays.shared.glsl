@@ -12,20 +12,20 @@ inline uint most_strays(uint body_count, bool has_tree)
 // Of so many, those that search the tree: all, or none where they are so few that all bodies are sooner compared with each.
 inline uint strays_in_tree(uint stray_count) { return choose(stray_count > k_compared_strays, stray_count, 0u); }
 
-// Of these: that are near, and were not before.
-inline uint most_near_pairs(uint body_count, bool has_tree)
+// Pairs of strays that are near, and were not before.
+inline uint most_near_pairs(uint body_count)
 {
-    return min(k_near_a_stray * most_strays(body_count, has_tree), k_most_near_pairs);
+    return min(k_near_a_stray * most_strays(body_count, true), k_most_near_pairs);
 }
 
 // Slots of NearTable: a power of two, of which at most half are in use.
-inline uint near_table_size(uint body_count, bool has_tree)
-{
-    return 2u << (findMSB(most_near_pairs(body_count, has_tree) - 1u) + 1);
-}
+inline uint near_table_size(uint body_count) { return 2u << (findMSB(most_near_pairs(body_count) - 1u) + 1); }
 
 // Whether the list has had so many pairs added since it was made that a new one would be much shorter.
 inline bool is_much_added(uint added, uint pair_count) { return added > pair_count / k_share_added; }
+
+// Whether so many have strayed since the bodies were put in order that their neighbours in the tree may be far away.
+inline bool is_out_of_order(uint all_strays, uint body_count) { return all_strays > body_count; }
 
 // In StrayMarks: of a stray, and of one that is near to somebody it was not near to.
 const uint k_stray = 1u;

@@ -21,13 +21,17 @@ layout(std430) writeonly buffer Aabbs { AabbCells aabbs[]; };
 
 #include "broad_phase/box_now.glsl"
 
+uint strays_with_their_pairs()
+{
+    bool have_them = counters[k_counter_search_count] == 0u && counters[k_counter_did_not_fit] == 0u;
+    return have_them ? counters[k_counter_stray_count] : 0u;
+}
+
 void main()
 {
-    bool for_strays = args.x == 1u;
-    bool have_their_pairs = counters[k_counter_search_count] == 0u && counters[k_counter_did_not_fit] == 0u;
-    uint of_strays = have_their_pairs ? counters[k_counter_stray_count] : 0u;
     uint item = item_index();
-    if (item >= (for_strays ? of_strays : counters[k_counter_search_count])) return;
+    bool for_strays = args.x == 1u;
+    if (item >= (for_strays ? strays_with_their_pairs() : counters[k_counter_search_count])) return;
     uint body = for_strays ? strays[item] : item;
     OrientedBox box = box_with_skin(body);
     oriented_boxes[body] = pack(box);

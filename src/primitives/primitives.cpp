@@ -9,6 +9,7 @@ namespace {
 
 static_assert(k_scan_tile == k_scan_group * k_scan_run);
 static_assert(k_digits == 1u << k_digit_bits);
+static_assert(32 / k_digit_bits % 2 == 0, "a sort of nothing by whole words has to leave the buffers as they were");
 static_assert(k_sort_group == k_digits && k_sort_group == 32 * k_mask_words && k_sort_tile % k_sort_group == 0);
 
 // Up to here one group is done before two dependent dispatches would be.

@@ -118,7 +118,8 @@ const uint k_counter_listed_pairs = 40u; // of what the constraint graph is made
 const uint k_counter_same_list = 41u; // 1 where the last step had the pairs of the one before
 const uint k_counter_unsettled_pairs = 42u; // whose contacts are not there from two steps ago, where that is asked
 const uint k_counter_awake = 43u; // 1 where a body is awake, or moves as its caller says; only while islands may sleep
-const uint k_counter_words = 44u;
+const uint k_counter_all_strays = 44u; // since the last search of all
+const uint k_counter_words = 45u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
