@@ -577,7 +577,7 @@ void Simulation::finish_oldest() {
     }
     ++finished_count;
     pairs_last.note(counters[k_counter_strayed] != 0);
-    list_lasts.note(counters[k_counter_searched] != 0);
+    list_lasts.note(counters[k_counter_searched] != 0 || counters[k_counter_searched_tree] != 0);
     graph_lasts.note(counters[k_counter_graph_was_due] != 0);
     const bool some_sleep = counters[k_counter_sleeping_bodies] > 0;
     few_are_solved.note(!some_sleep || counters[k_counter_manifold_count] >= device.constraints_beside() / 2);

@@ -224,7 +224,7 @@ private:
     std::uint64_t pairs_grew_at = 0; ///< finished_count when there was last made room for more of them
     std::uint32_t growths = 0;
     Trust pairs_last;          ///< that a step need not search for pairs
-    Trust list_lasts;          ///< that it need not search for all
+    Trust list_lasts;          ///< that it need not search for all, nor strays the tree
     Trust graph_lasts;         ///< that a step need not make its constraint graph
     Trust few_are_solved;      ///< that constraints have room beside the contacts, as nearly all bodies sleep
     bool other_graph = true;   ///< see begin_graph_anew()

@@ -20,7 +20,8 @@ struct Population {
     Waking waking = Waking::None;
 };
 
-/// What the search for pairs looks for: those of a few bodies that have left their boxes, or all.
+/// What the search for pairs looks for: those of bodies that have left their boxes, of so few that they are compared
+/// with all others, or all.
 enum class Search : uint { None = k_search_none, Strays = k_search_strays, All = k_search_all };
 
 /// Of so many groups that a GPU can run at a time, the persistent launch leaves out one for other launches.

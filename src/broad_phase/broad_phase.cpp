@@ -119,7 +119,8 @@ static void search_all(Device& device, const StepPlan& plan) {
 }
 
 static void search_for_strays(Device& device, const StepPlan& plan, bool has_tree) {
-    if (has_tree) {
+    const bool with_tree = has_tree && plan.search == Search::All;
+    if (with_tree) {
         const uint top = tree_top(plan.body_count);
         reserve_tree(device);
         build_tree_of(device, plan.body_count, top, true);
@@ -135,7 +136,7 @@ static void search_for_strays(Device& device, const StepPlan& plan, bool has_tre
                 .bindings = k_marks});
     device.run({.kernel = find_known_pairs, .items = plan.pair_capacity, .bindings = k_marks});
     device.run({.kernel = add_pairs, .items = 1});
-    device.run({.kernel = update_aabbs, .items = most_strays(plan.body_count, has_tree), .args = {1}});
+    device.run({.kernel = update_aabbs, .items = most_strays(plan.body_count, has_tree), .args = {1, with_tree}});
 }
 
 // What it launches does nothing in a step whose pairs are still those of the last search, or where a smaller search

@@ -7,8 +7,9 @@
 // Needs: a barrier after the scan of the pair counts.
 // Overflow: says so in k_counter_did_not_fit. Once that is set there are no pairs to treat, in this step and in those
 // behind it that are on their way already: the last step's manifolds must be there when the host does it again. So it is
-// where a search is due that had no launches.
+// where a search is due, of all or of the tree for strays, that had no launches.
 #include "state/dispatch.shared.glsl"
+#include "broad_phase/strays.shared.glsl"
 
 layout(local_size_x = 1) in;
 
@@ -16,7 +17,7 @@ layout(std430) buffer Counters { uint counters[]; };
 layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 layout(std430) writeonly buffer Arrivals { uint arrivals[]; };
 
-void take_pairs(bool due)
+void take_pairs(bool due, bool searches_tree)
 {
     counters[k_counter_wanted_pairs] = 0u;
     if (parameters.body_count == 0u) { // nothing has looked at the bodies
@@ -31,7 +32,7 @@ void take_pairs(bool due)
             counters[k_counter_pairs_changed] = 1u;
         }
         counters[k_counter_searched_slots] = parameters.body_count;
-    } else if (due || counters[k_counter_pairs_changed] != 0u) {
+    } else if (due || searches_tree || counters[k_counter_pairs_changed] != 0u) {
         counters[k_counter_did_not_fit] |= k_fit_all;
     }
     if (args.x == k_search_none && (due || counters[k_counter_stray_count] > 0u))
@@ -47,10 +48,12 @@ void take_pairs(bool due)
 void main()
 {
     bool due = counters[k_counter_search_count] != 0u;
+    bool searches_tree = !due && strays_in_tree(counters[k_counter_stray_count]) > 0u;
     counters[k_counter_searched] = due ? 1u : 0u;
+    counters[k_counter_searched_tree] = searches_tree ? 1u : 0u;
     counters[k_counter_strayed] = due || counters[k_counter_stray_count] > 0u ? 1u : 0u;
     if (counters[k_counter_did_not_fit] == 0u)
-        take_pairs(due);
+        take_pairs(due, searches_tree);
     else if (due)
         counters[k_counter_searched_slots] = k_none; // the search was not made to its end
     uint demand = counters[k_counter_pair_demand];

@@ -7,7 +7,7 @@
 
 namespace talus::engine {
 
-static void take_pairs(CpuState& state, bool due, Search launched) {
+static void take_pairs(CpuState& state, bool due, bool searches_tree, Search launched) {
     const Array<uint>& counters = state.counters;
     const Parameters& p = state.parameters;
     counters[k_counter_wanted_pairs] = 0;
@@ -23,7 +23,7 @@ static void take_pairs(CpuState& state, bool due, Search launched) {
             counters[k_counter_pairs_changed] = 1;
         }
         counters[k_counter_searched_slots] = p.body_count;
-    } else if (due || counters[k_counter_pairs_changed] != 0) {
+    } else if (due || searches_tree || counters[k_counter_pairs_changed] != 0) {
         counters[k_counter_did_not_fit] |= k_fit_all;
     }
     if (launched == Search::None && (due || counters[k_counter_stray_count] > 0))
@@ -39,10 +39,12 @@ static void take_pairs(CpuState& state, bool due, Search launched) {
 static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& counters = state.counters;
     const bool due = counters[k_counter_search_count] != 0;
+    const bool searches_tree = !due && strays_in_tree(counters[k_counter_stray_count]) > 0;
     counters[k_counter_searched] = due ? 1 : 0;
+    counters[k_counter_searched_tree] = searches_tree ? 1 : 0;
     counters[k_counter_strayed] = due || counters[k_counter_stray_count] > 0 ? 1 : 0;
     if (counters[k_counter_did_not_fit] == 0)
-        take_pairs(state, due, Search{launch.args[0]});
+        take_pairs(state, due, searches_tree, Search{launch.args[0]});
     else if (due)
         counters[k_counter_searched_slots] = k_none; // the search was not made to its end
     const uint demand = counters[k_counter_pair_demand];

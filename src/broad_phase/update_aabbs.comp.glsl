@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot, or a stray: its box with a skin, and the bounding box of that.
-// args.x: 1 for strays, where no more are searched for.
+// args.x: 1 for strays, where no more are searched for. args.y: 1 where they may have searched the tree.
 // Reads: Counters, Poses, Velocities, Shapes, Strays.
 // Writes: OrientedBoxes, Aabbs.
 // Needs: a barrier after find_strays; for strays, after add_pairs.
-// Overflow: where there was no room for the pairs of strays their boxes stay as they are.
+// Overflow: where there was no room for the pairs of strays, or they had no launches, their boxes stay as they are.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
+#include "broad_phase/strays.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -23,8 +24,9 @@ layout(std430) writeonly buffer Aabbs { AabbCells aabbs[]; };
 
 uint strays_with_their_pairs()
 {
-    bool have_them = counters[k_counter_search_count] == 0u && counters[k_counter_did_not_fit] == 0u;
-    return have_them ? counters[k_counter_stray_count] : 0u;
+    uint count = counters[k_counter_stray_count];
+    bool are_found = counters[k_counter_search_count] == 0u && (args.y == 1u || strays_in_tree(count) == 0u);
+    return are_found && counters[k_counter_did_not_fit] == 0u ? count : 0u;
 }
 
 void main()

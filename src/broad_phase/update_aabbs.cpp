@@ -6,9 +6,11 @@
 
 namespace talus::engine {
 
-static void update_aabbs_of_strays(CpuState& state) {
-    if (state.counters[k_counter_search_count] != 0 || state.counters[k_counter_did_not_fit] != 0) return;
-    state.parallel(state.counters[k_counter_stray_count], [&](uint i) {
+static void update_aabbs_of_strays(CpuState& state, bool with_tree) {
+    const uint count = state.counters[k_counter_stray_count];
+    const bool are_found = state.counters[k_counter_search_count] == 0 && (with_tree || strays_in_tree(count) == 0);
+    if (!are_found || state.counters[k_counter_did_not_fit] != 0) return;
+    state.parallel(count, [&](uint i) {
         const uint body = state.strays[i];
         const OrientedBox box = box_with_skin(state, body);
         state.oriented_boxes[body] = box;
@@ -17,7 +19,7 @@ static void update_aabbs_of_strays(CpuState& state) {
 }
 
 static void update_aabbs_on_cpu(CpuState& state, const Launch& launch) {
-    if (launch.args[0] == 1) return update_aabbs_of_strays(state);
+    if (launch.args[0] == 1) return update_aabbs_of_strays(state, launch.args[1] == 1);
     const LaneSearch& search = lane_search();
     state.parallel_parts(state.counters[k_counter_search_count], search.lanes,
                          [&](uint, uint first, uint end) { search.update_boxes(state, first, end - first); });

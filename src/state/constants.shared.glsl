@@ -119,7 +119,8 @@ const uint k_counter_same_list = 41u; // 1 where the last step had the pairs of 
 const uint k_counter_unsettled_pairs = 42u; // whose contacts are not there from two steps ago, where that is asked
 const uint k_counter_awake = 43u; // 1 where a body is awake, or moves as its caller says; only while islands may sleep
 const uint k_counter_all_strays = 44u; // since the last search of all
-const uint k_counter_words = 45u;
+const uint k_counter_searched_tree = 45u; // 1 where strays of this step searched the tree
+const uint k_counter_words = 46u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -132,7 +133,7 @@ const uint k_fit_groups = 64u; // groups that wait for each other, or invocation
 const uint k_fit_strays = 128u; // no room is missing: bodies had left their boxes, and the search had no launches
 const uint k_fit_graph = 256u; // no room is missing: the step had to make its constraint graph, and had no launches for it
 const uint k_fit_manifolds = 512u; // that are solved
-const uint k_fit_all = 1024u; // no room is missing: the step had to search for all pairs, and had no launches for it
+const uint k_fit_all = 1024u; // no room is missing: the step had to search for all pairs, or strays the tree, and had no launches for it
 
 // Which search for pairs has launches.
 const uint k_search_none = 0u;
