@@ -68,7 +68,7 @@ protected:
         GLint linked = GL_FALSE;
         glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
         EXPECT_EQ(linked, GL_TRUE);
-        EXPECT_EQ(program.blocks().size(), 6u); // Counters, Poses, Velocities, Shapes, OrientedBoxes, Aabbs
+        EXPECT_EQ(program.blocks().size(), 7u); // Counters, Poses, Velocities, Shapes, Strays, OrientedBoxes, Aabbs
         EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     }
 
