@@ -67,14 +67,15 @@ TEST_F(Bench, prints_a_line_for_each_scene) {
 }
 
 TEST_F(Bench, json_lines_are_the_reports_of_run) {
-    const Ending ending = bench("stack:height=2 pool:boxes=5 --steps 10 --threads 2 --json");
+    // Two threads that solve islands at the same time keep memory for each.
+    const Ending ending = bench("stack:height=2 pool:boxes=5 --steps 10 --threads 1 --json");
     ASSERT_EQ(ending.status, 0) << ending.errors;
     EXPECT_TRUE(contains(ending.errors, "median ms")); // the table
     const std::vector<json> lines = lines_of(ending.output);
     ASSERT_EQ(lines.size(), 2u);
     for (const json& line : lines) {
         const std::string scene = line["scene"];
-        ASSERT_EQ(run_on_cpu("'" + scene + "' --steps 10 --threads 2 --report run.json").status, 0);
+        ASSERT_EQ(run_on_cpu("'" + scene + "' --steps 10 --threads 1 --report run.json").status, 0);
         const json report = json_of("run.json");
         EXPECT_EQ(paths_of(line), paths_of(report));
         for (const char* key : {"scene", "device", "threads", "steps", "dt", "bodies", "contacts", "quality",
