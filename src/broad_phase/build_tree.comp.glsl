@@ -37,8 +37,8 @@ bool is_for_strays() { return args.z == 1u; }
 
 bool is_wanted()
 {
-    bool all = counters[k_counter_search_count] != 0u;
-    return is_for_strays() ? !all && strays_in_tree(counters[k_counter_stray_count]) > 0u : all;
+    uint search_count = counters[k_counter_search_count];
+    return (is_for_strays() ? strays_in_tree(counters[k_counter_stray_count], search_count) : search_count) > 0u;
 }
 
 Aabb box_at(uint place)

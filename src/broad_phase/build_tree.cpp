@@ -28,9 +28,9 @@ static void make_leaves(CpuState& state, const Launch& launch, bool for_strays) 
 }
 
 static void build_tree_on_cpu(CpuState& state, const Launch& launch) {
-    const bool all = state.counters[k_counter_search_count] != 0, for_strays = launch.args[2] == 1;
-    const bool is_wanted = for_strays ? !all && strays_in_tree(state.counters[k_counter_stray_count]) > 0 : all;
-    if (!is_wanted) return;
+    const uint search_count = state.counters[k_counter_search_count];
+    const bool for_strays = launch.args[2] == 1;
+    if ((for_strays ? strays_in_tree(state.counters[k_counter_stray_count], search_count) : search_count) == 0) return;
     const uint lowest = launch.args[0], top = launch.args[1];
     if (lowest == 0) make_leaves(state, launch, for_strays);
     for (uint shift = lowest + k_tree_bits; shift <= std::min(lowest + k_tree_shift, top); shift += k_tree_bits) {

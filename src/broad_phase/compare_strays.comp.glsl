@@ -40,9 +40,10 @@ shared Aabb boxes[k_tile];
 void count_strays()
 {
     uint count = counters[k_counter_stray_count];
-    searched_tree = args.x == 1u && strays_in_tree(count) > 0u;
+    uint search_count = counters[k_counter_search_count];
+    searched_tree = args.x == 1u && strays_in_tree(count, search_count) > 0u;
     stray_count = searched_tree ? counters[k_counter_wide_strays] : count;
-    if (counters[k_counter_search_count] != 0u) stray_count = 0u;
+    if (search_count != 0u) stray_count = 0u;
 }
 
 void load_tile(uint first)

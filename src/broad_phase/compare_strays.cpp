@@ -13,8 +13,10 @@ namespace talus::engine {
 
 static void compare_strays_on_cpu(CpuState& state, const Launch& launch) {
     const std::span strays(state.strays.data, state.counters[k_counter_stray_count]);
-    const bool searched_tree = launch.args[0] == 1 && strays_in_tree(static_cast<uint>(strays.size())) > 0;
-    if (state.counters[k_counter_search_count] != 0 || strays.empty() || searched_tree) return;
+    const uint search_count = state.counters[k_counter_search_count];
+    const bool searched_tree =
+        launch.args[0] == 1 && strays_in_tree(static_cast<uint>(strays.size()), search_count) > 0;
+    if (search_count != 0 || strays.empty() || searched_tree) return;
     std::array<OrientedBox, k_compared_strays> oriented;
     std::array<Aabb, k_compared_strays> boxes;
     std::ranges::transform(strays, oriented.begin(), [&](uint stray) { return box_with_skin(state, stray); });

@@ -48,8 +48,8 @@ void main()
     bool other_list = counters[k_counter_searched_slots] != parameters.body_count;
     if (!other_list && asleep) return; // where it was
     if (!other_list && is_within(box_now(body), unpack(oriented_boxes[body]))) return;
-    bool takes_all = other_list || is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]) ||
-                     is_out_of_order(counters[k_counter_all_strays], parameters.body_count);
+    bool takes_all = other_list || has_aged(counters[k_counter_added_pairs], counters[k_counter_pair_demand],
+                                            counters[k_counter_all_strays], parameters.body_count);
     uint most = most_strays(parameters.body_count, args.x == 1u);
     bool are_many = counters[k_counter_stray_count] >= most; // known without adding to what all add to
     uint place = takes_all || are_many ? most : atomicAdd(counters[k_counter_stray_count], 1u);

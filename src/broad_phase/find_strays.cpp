@@ -23,9 +23,8 @@ static void find_strays_on_cpu(CpuState& state, const Launch& launch) {
     const uint body_count = state.parameters.body_count;
     if (state.parameters.rest_steps > 0) note_who_is_awake(state);
     const bool other_list = counters[k_counter_searched_slots] != body_count;
-    const bool takes_all = other_list ||
-                           is_much_added(counters[k_counter_added_pairs], counters[k_counter_pair_demand]) ||
-                           is_out_of_order(counters[k_counter_all_strays], body_count);
+    const bool takes_all = other_list || has_aged(counters[k_counter_added_pairs], counters[k_counter_pair_demand],
+                                                  counters[k_counter_all_strays], body_count);
     const uint most = most_strays(body_count, launch.args[0] == 1);
     std::atomic<uint> count = other_list ? most + 1 : 0;
     const LaneSearch& search = lane_search();

@@ -48,7 +48,7 @@ void take_pairs(bool due, bool searches_tree)
 void main()
 {
     bool due = counters[k_counter_search_count] != 0u;
-    bool searches_tree = !due && strays_in_tree(counters[k_counter_stray_count]) > 0u;
+    bool searches_tree = strays_in_tree(counters[k_counter_stray_count], counters[k_counter_search_count]) > 0u;
     counters[k_counter_searched] = due ? 1u : 0u;
     counters[k_counter_searched_tree] = searches_tree ? 1u : 0u;
     counters[k_counter_strayed] = due || counters[k_counter_stray_count] > 0u ? 1u : 0u;

@@ -39,7 +39,7 @@ static void take_pairs(CpuState& state, bool due, bool searches_tree, Search lau
 static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& counters = state.counters;
     const bool due = counters[k_counter_search_count] != 0;
-    const bool searches_tree = !due && strays_in_tree(counters[k_counter_stray_count]) > 0;
+    const bool searches_tree = strays_in_tree(counters[k_counter_stray_count], counters[k_counter_search_count]) > 0;
     counters[k_counter_searched] = due ? 1 : 0;
     counters[k_counter_searched_tree] = searches_tree ? 1 : 0;
     counters[k_counter_strayed] = due || counters[k_counter_stray_count] > 0 ? 1 : 0;

@@ -36,7 +36,6 @@ layout(std430) buffer Counters { uint counters[]; };
 
 // What a stray meets in a level: the node, and in the highest bits which of the group's strays it is.
 const uint k_node_bits = 28u;
-const uint k_strays_a_group = 1u << (32u - k_node_bits);
 const uint k_most_met = 2048u; // in a level
 
 shared Aabb boxes[k_strays_a_group]; // of the strays, as they are now
@@ -84,7 +83,7 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     if (me == 0u) { // for all, as another group may find that all are to be searched for
-        stray_count = counters[k_counter_search_count] == 0u ? strays_in_tree(counters[k_counter_stray_count]) : 0u;
+        stray_count = strays_in_tree(counters[k_counter_stray_count], counters[k_counter_search_count]);
         wide = 0u;
     }
     if (me < 2u) met_counts[me] = 0u;

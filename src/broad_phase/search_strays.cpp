@@ -12,8 +12,8 @@
 namespace talus::engine {
 
 static void search_strays_on_cpu(CpuState& state, const Launch& launch) {
-    const uint count = strays_in_tree(state.counters[k_counter_stray_count]);
-    if (state.counters[k_counter_search_count] != 0 || count == 0) return;
+    const uint count = strays_in_tree(state.counters[k_counter_stray_count], state.counters[k_counter_search_count]);
+    if (count == 0) return;
     const uint body_count = state.parameters.body_count, first_shift = launch.args[0], top = launch.args[1];
     const TreeView tree{state.tree_nodes.data, state.oriented_boxes.data, state.sort_values.data, top, body_count};
     const StraySearch search{state, state.words(launch.bound("StrayMarks"))};
@@ -43,6 +43,6 @@ static void search_strays_on_cpu(CpuState& state, const Launch& launch) {
     });
 }
 
-const Kernel search_strays{"broad_phase/search_strays", search_strays_on_cpu, 16};
+const Kernel search_strays{"broad_phase/search_strays", search_strays_on_cpu, k_strays_a_group};
 
 } // namespace talus::engine

@@ -10,7 +10,20 @@ inline uint most_strays(uint body_count, bool has_tree)
 }
 
 // Of so many, those that search the tree: all, or none where they are so few that all bodies are sooner compared with each.
-inline uint strays_in_tree(uint stray_count) { return choose(stray_count > k_compared_strays, stray_count, 0u); }
+// `search_count`: not 0 where all are searched for instead.
+inline uint strays_in_tree(uint stray_count, uint search_count)
+{
+    return choose(stray_count > k_compared_strays && search_count == 0u, stray_count, 0u);
+}
+
+// Of so many, those whose pairs are found: all, or none where all are searched for instead or the tree had no launches.
+inline uint found_strays(uint stray_count, uint search_count, bool with_tree)
+{
+    bool found = search_count == 0u && (with_tree || strays_in_tree(stray_count, search_count) == 0u);
+    return choose(found, stray_count, 0u);
+}
+
+const uint k_strays_a_group = 16u; // that go down the tree together
 
 // Pairs of strays that are near, and were not before.
 inline uint most_near_pairs(uint body_count)
@@ -21,11 +34,12 @@ inline uint most_near_pairs(uint body_count)
 // Slots of NearTable: a power of two, of which at most half are in use.
 inline uint near_table_size(uint body_count) { return 2u << (findMSB(most_near_pairs(body_count) - 1u) + 1); }
 
-// Whether the list has had so many pairs added since it was made that a new one would be much shorter.
-inline bool is_much_added(uint added, uint pair_count) { return added > pair_count / k_share_added; }
-
-// Whether so many have strayed since the bodies were put in order that their neighbours in the tree may be far away.
-inline bool is_out_of_order(uint all_strays, uint body_count) { return all_strays > body_count; }
+// Whether so many pairs have been added to the list since it was made that a new one would be much shorter, or so many bodies have
+// strayed that those beside each other in the tree may be far apart.
+inline bool has_aged(uint added, uint pair_count, uint all_strays, uint body_count)
+{
+    return added > pair_count / k_share_added || all_strays > body_count;
+}
 
 // In StrayMarks: of a stray, and of one that is near to somebody it was not near to.
 const uint k_stray = 1u;

@@ -24,9 +24,8 @@ layout(std430) writeonly buffer Aabbs { AabbCells aabbs[]; };
 
 uint strays_with_their_pairs()
 {
-    uint count = counters[k_counter_stray_count];
-    bool are_found = counters[k_counter_search_count] == 0u && (args.y == 1u || strays_in_tree(count) == 0u);
-    return are_found && counters[k_counter_did_not_fit] == 0u ? count : 0u;
+    if (counters[k_counter_did_not_fit] != 0u) return 0u;
+    return found_strays(counters[k_counter_stray_count], counters[k_counter_search_count], args.y == 1u);
 }
 
 void main()

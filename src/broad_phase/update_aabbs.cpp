@@ -7,9 +7,9 @@
 namespace talus::engine {
 
 static void update_aabbs_of_strays(CpuState& state, bool with_tree) {
-    const uint count = state.counters[k_counter_stray_count];
-    const bool are_found = state.counters[k_counter_search_count] == 0 && (with_tree || strays_in_tree(count) == 0);
-    if (!are_found || state.counters[k_counter_did_not_fit] != 0) return;
+    const Array<uint>& counters = state.counters;
+    if (counters[k_counter_did_not_fit] != 0) return;
+    const uint count = found_strays(counters[k_counter_stray_count], counters[k_counter_search_count], with_tree);
     state.parallel(count, [&](uint i) {
         const uint body = state.strays[i];
         const OrientedBox box = box_with_skin(state, body);
