@@ -68,6 +68,7 @@ Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
 
     p.body_count = plan.body_count;
     p.least_substeps = plan.least_substeps;
+    p.fewest_substeps = plan.fewest_substeps();
     p.most_substeps = plan.most_substeps;
     p.substep_capacity = plan.substep_capacity;
     p.iterations = plan.iterations;
@@ -75,7 +76,6 @@ Parameters make_parameters(const Settings& settings, const StepPlan& plan) {
     p.pair_capacity = plan.pair_capacity;
     p.manifold_capacity = plan.manifold_capacity;
     p.colour_capacity = plan.colour_capacity;
-    p.overflow_capacity = plan.overflow ? 1 : 0;
     p.table_size = plan.table_size;
     const bool coloured = settings.solve_order == SolveOrder::Coloured;
     p.usable_colours = coloured ? k_first_hub_colour : 0;

@@ -81,6 +81,13 @@ struct StepPlan {
             most_substeps % least_substeps == 0 && std::has_single_bit(most_substeps / least_substeps);
         return !small && !one_island && !bounces && most_is_double && body_count >= least_multirate;
     }
+    /// Of a contact in a multirate island: half of the least number of any other, unless the caller has said how many
+    /// there are. Not where bodies may sleep: what rests on softer contacts comes to rest later.
+    uint fewest_substeps() const {
+        const bool halves =
+            may_be_multirate() && !sleeping && most_substeps > least_substeps && least_substeps % 2 == 0;
+        return halves ? least_substeps / 2 : least_substeps;
+    }
     /// Bodies from which on an island is multirate; k_none: none is. A hub counts as 1,025, unless parts of islands may
     /// sleep, for which islands are found before hubs.
     uint multirate_from() const { return may_be_multirate() ? least_multirate : k_none; }

@@ -290,12 +290,13 @@ TEST(Math, a_heavy_load_is_damped_in_proportion_and_pushed_apart_more_slowly) {
 
 TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {
     const Parameters p = parameters_for(Settings{});
-    EXPECT_EQ(substeps_for(needed_substeps(0.0f, 1.0f, k_unknown_height, false), p), 8u);
-    EXPECT_EQ(substeps_for(needed_substeps(14.0f, 1.0f, k_unknown_height, false), p), 8u);
-    EXPECT_EQ(substeps_for(needed_substeps(1e30f, 1.0f, k_unknown_height, false), p), 128u);
+    EXPECT_EQ(substeps_for(needed_substeps(0.0f, 1.0f, k_unknown_height, false), p.least_substeps, p), 8u);
+    EXPECT_EQ(substeps_for(needed_substeps(14.0f, 1.0f, k_unknown_height, false), p.least_substeps, p), 8u);
+    EXPECT_EQ(substeps_for(needed_substeps(1e30f, 1.0f, k_unknown_height, false), p.least_substeps, p), 128u);
     uint before = 8;
     for (float weights = 0.0f; weights < 200.0f; weights += 0.25f) {
-        const uint substeps = substeps_for(needed_substeps(weights, 1.0f, k_unknown_height, false), p);
+        const uint substeps =
+            substeps_for(needed_substeps(weights, 1.0f, k_unknown_height, false), p.least_substeps, p);
         EXPECT_GE(substeps, before) << weights;
         EXPECT_LE(substeps, std::max(8.0f, 1.5f * std::max(std::sqrt(weights), 0.0901f * std::pow(weights, 1.5f))))
             << weights;
@@ -303,15 +304,20 @@ TEST(Math, substeps_grow_with_the_load_and_are_enough_for_it) {
         before = substeps;
     }
     // A low column of heavily loaded contacts: 40 weights on a single one, and on ten.
-    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1.0f, 1, false), p), 8u);
-    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1.0f, 10, false), p), 12u);
-    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1.0f, 40, false), p), 24u);
-    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1.0f, 41, false), p), 24u) << "it is no higher than its load says";
-    EXPECT_EQ(substeps_for(needed_substeps(1000.0f, 1.0f, 1, false), p), 32u) << "its contact may sink by 4.4 mm";
-    EXPECT_EQ(substeps_for(needed_substeps(1000.0f, 1.0f, 1, true), p), 16u) << "the ground is stiffer";
+    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1.0f, 1, false), p.least_substeps, p), 8u);
+    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1.0f, 10, false), p.least_substeps, p), 12u);
+    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1.0f, 40, false), p.least_substeps, p), 24u);
+    EXPECT_EQ(substeps_for(needed_substeps(40.0f, 1.0f, 41, false), p.least_substeps, p), 24u)
+        << "it is no higher than its load says";
+    EXPECT_EQ(substeps_for(needed_substeps(1000.0f, 1.0f, 1, false), p.least_substeps, p), 32u)
+        << "its contact may sink by 4.4 mm";
+    EXPECT_EQ(substeps_for(needed_substeps(1000.0f, 1.0f, 1, true), p.least_substeps, p), 16u)
+        << "the ground is stiffer";
     Settings few;
     few.substeps = few.max_substeps = 7;
-    EXPECT_EQ(substeps_for(needed_substeps(500.0f, 1.0f, k_unknown_height, false), parameters_for(few)), 7u)
+    EXPECT_EQ(substeps_for(needed_substeps(500.0f, 1.0f, k_unknown_height, false), parameters_for(few).least_substeps,
+                           parameters_for(few)),
+              7u)
         << "a number of the caller's";
 }
 
@@ -382,8 +388,8 @@ TEST(Math, what_asks_for_less_than_its_island_has_does_not_change_it) {
 TEST(Math, fewer_substeps_are_the_next_number_in_use) {
     const Parameters p = parameters_for(Settings{});
     for (const auto& [substeps, fewer] : {std::pair{8u, 8u}, {12u, 8u}, {16u, 12u}, {100u, 96u}, {128u, 96u}})
-        EXPECT_EQ(fewer_substeps(substeps, p), fewer) << substeps;
-    EXPECT_EQ(fewer_substeps(5, p), 5u) << "the caller's most";
+        EXPECT_EQ(fewer_substeps(substeps, p.least_substeps), fewer) << substeps;
+    EXPECT_EQ(fewer_substeps(5, p.least_substeps), 5u) << "the caller's most";
 }
 
 TEST(Math, what_lasts_of_a_load_falls_with_it_and_rises_slowly_to_three_quarters) {

@@ -74,6 +74,14 @@ Contacts count_contacts(const EngineRun& run) {
     return contacts;
 }
 
+uint count_with(const EngineRun& run, uint substeps) {
+    uint count = 0;
+    for (const auto& c :
+         run.read<engine::ContactConstraint>(BufferId::Constraints, run.counter(engine::k_counter_manifold_count)))
+        count += engine::is_multirate(c.traits) && engine::substeps_of_contact(c.counts) == substeps ? 1 : 0;
+    return count;
+}
+
 TEST(Multirate, numbers_are_doubles_of_the_least) {
     Settings settings;
     settings.substeps = 5;
@@ -85,6 +93,27 @@ TEST(Multirate, numbers_are_doubles_of_the_least) {
     EXPECT_EQ(engine::doubled_substeps(6, p), 10u);
     EXPECT_EQ(engine::doubled_substeps(11, p), 20u);
     EXPECT_EQ(engine::doubled_substeps(32, p), 20u) << "40 would be more than the most";
+}
+
+TEST(Multirate, contacts_may_have_half_of_the_least_number_of_an_island) {
+    engine::StepPlan plan{.least_substeps = 8, .most_substeps = 32};
+    EXPECT_EQ(plan.fewest_substeps(), 8u) << "no island of so few bodies is multirate";
+    plan.body_count = 100'000;
+    plan.small = false;
+    plan.one_island = false;
+    EXPECT_EQ(plan.fewest_substeps(), 4u);
+    EXPECT_EQ(engine::doubled_substeps(3, engine::make_parameters({}, plan)), 4u);
+    EXPECT_EQ(engine::multirate_substeps(3, 0, false, engine::make_parameters({}, plan)), 4u);
+    EXPECT_EQ(engine::multirate_substeps(3, 0, true, engine::make_parameters({}, plan)), 8u) << "beside a tall column";
+    EXPECT_EQ(engine::multirate_substeps(3, 3, true, engine::make_parameters({}, plan)), 16u) << "by its foot";
+    plan.sleeping = true;
+    EXPECT_EQ(plan.fewest_substeps(), 8u);
+    plan.sleeping = false;
+    plan.least_substeps = plan.most_substeps = 8;
+    EXPECT_EQ(plan.fewest_substeps(), 8u) << "the caller's number";
+    plan.least_substeps = 5;
+    plan.most_substeps = 20;
+    EXPECT_EQ(plan.fewest_substeps(), 5u);
 }
 
 TEST(Multirate, sub_steps_begin_evenly) {
@@ -226,7 +255,7 @@ TEST_P(MultirateIslands, a_heap_of_light_and_heavy_boxes_has_the_same_bits) {
         each->simulation.reserve_pairs(16384);
         each->least_multirate = 700;
     }
-    uint most_fast = 0, multirate_steps = 0;
+    uint most_fast = 0, most_with_fewest = 0, multirate_steps = 0;
     for (uint step = 0; step < 200; ++step) {
         one.step_persistently(step % 2 == 0);
         expected.step_in_many_launches();
@@ -236,9 +265,11 @@ TEST_P(MultirateIslands, a_heap_of_light_and_heavy_boxes_has_the_same_bits) {
         uint fast = 0;
         ASSERT_NO_FATAL_FAILURE(expect_the_fast_first(one, fast));
         most_fast = std::max(most_fast, fast);
+        most_with_fewest = std::max(most_with_fewest, count_with(one, 1));
     }
     EXPECT_GT(multirate_steps, 5u);
     EXPECT_GT(most_fast, 50u);
+    EXPECT_GT(most_with_fewest, 100u);
 }
 
 /// By its own load only the lower contacts of a tower would have the most, and it would lean.
@@ -315,11 +346,11 @@ TEST(Multirate, a_foot_rate_is_told_upwards_and_kept) {
     EXPECT_EQ(engine::foot_rate(demand(8, 3, 5), storey, 3, 24, p), 3u);
     EXPECT_EQ(engine::foot_rate(demand(8, 3, 5), storey, 2, 24, p), 2u) << "the foot asks for less";
     EXPECT_EQ(engine::foot_rate(demand(8, 0, 5), leaning, 3, 100, p), 0u);
-    EXPECT_EQ(engine::multirate_substeps(8, 0, p), 8u);
-    EXPECT_EQ(engine::multirate_substeps(8, 3, p), 32u);
-    EXPECT_EQ(engine::multirate_substeps(24, 2, p), 32u);
+    EXPECT_EQ(engine::multirate_substeps(8, 0, true, p), 8u);
+    EXPECT_EQ(engine::multirate_substeps(8, 3, true, p), 32u);
+    EXPECT_EQ(engine::multirate_substeps(24, 2, true, p), 32u);
     const engine::StepPlan lowered{.least_substeps = 8, .most_substeps = 16};
-    EXPECT_EQ(engine::multirate_substeps(8, 3, engine::make_parameters(settings, lowered)), 16u);
+    EXPECT_EQ(engine::multirate_substeps(8, 3, true, engine::make_parameters(settings, lowered)), 16u);
 }
 
 TEST(Multirate, where_the_most_is_no_double_of_the_least_islands_have_one_number) {

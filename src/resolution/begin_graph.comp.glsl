@@ -52,6 +52,7 @@ void count_nothing()
     counters[k_counter_launched_substeps] = 0u;
     counters[k_counter_launched_overflow] = 0u;
     counters[k_counter_multirate_islands] = 0u;
+    counters[k_counter_low_islands] = 0u;
     counters[k_counter_sleeping_manifolds] = 0u;
     counters[k_counter_singles] = 0u;
     counters[k_counter_largest_island] = 0u;
@@ -62,7 +63,7 @@ void begin_island(uint body)
 {
     BodyShape shape = unpack(shapes[body]);
     islands[body] = is_movable(shape) ? body : k_none;
-    substeps[body] = parameters.least_substeps;
+    substeps[body] = parameters.fewest_substeps;
     island_sizes[body] = 0u;
     island_starts[body] = 0u;
     island_fill[body] = 0u;

@@ -22,7 +22,7 @@ static void count_nothing(CpuState& state) {
          {k_counter_manifold_count, k_counter_contact_count, k_counter_colour_demand, k_counter_overflow_count,
           k_counter_uncoloured, k_counter_hub_count, k_counter_hub_manifolds, k_counter_launched_colours,
           k_counter_launched_substeps, k_counter_launched_overflow, k_counter_sleeping_manifolds, k_counter_singles,
-          k_counter_multirate_islands, k_counter_largest_island})
+          k_counter_multirate_islands, k_counter_low_islands, k_counter_largest_island})
         state.counters[counter] = 0;
     state.counters[k_counter_substep_demand] = state.parameters.least_substeps;
 }
@@ -38,7 +38,7 @@ static void begin_graph_on_cpu(CpuState& state, const Launch& launch) {
     state.parallel(p.body_count, [&](uint body) {
         const BodyShape& shape = state.shapes[body];
         state.islands[body] = is_movable(shape) ? body : k_none;
-        state.substeps[body] = p.least_substeps;
+        state.substeps[body] = p.fewest_substeps;
         state.island_sizes[body] = state.island_starts[body] = 0;
         state.island_fill[body] = 0;
         if (p.rest_steps == 0) return;

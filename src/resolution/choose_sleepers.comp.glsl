@@ -39,7 +39,7 @@ void main()
     }
     IslandAtRest at_rest = island_at_rest(island_sizes[island], island_starts[island], args.x, args.y == 1u);
     uint own_substeps = substeps[body];
-    if (at_rest.multirate) own_substeps = multirate_substeps(own_substeps, foot_rate_at(island_sizes[body]), parameters);
+    if (at_rest.multirate) own_substeps = multirate_substeps(own_substeps, foot_rate_at(island_sizes[body]), true, parameters);
     if (is_part) own_substeps = max(own_substeps, own_substeps_kept(unpack(rests[body]).calm));
     bool awake = (island_fill[island] & k_awake) != 0u;
     if (at_rest.in_parts)

@@ -21,7 +21,7 @@ static void choose_sleepers_on_cpu(CpuState& state, const Launch& launch) {
             island_at_rest(size, state.island_starts[island], launch.args[0], launch.args[1] == 1);
         uint own_substeps = state.substeps[body];
         if (at_rest.multirate)
-            own_substeps = multirate_substeps(own_substeps, foot_rate_at(state.island_sizes[body]), p);
+            own_substeps = multirate_substeps(own_substeps, foot_rate_at(state.island_sizes[body]), true, p);
         if (is_part) own_substeps = max(own_substeps, own_substeps_kept(state.rests[body].calm));
         bool awake = (state.island_fill[island] & k_awake) != 0;
         if (at_rest.in_parts) awake = (fill & (k_restless | k_touched)) != 0 || !is_calm(state.rests[body], p);

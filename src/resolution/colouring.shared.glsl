@@ -98,9 +98,9 @@ inline bool is_active(Manifold manifold)
 }
 
 // Words of a body slot in FastBodies: two for each doubling of the sub-steps, and one more, see solve_in_order.glsl.
-inline uint fast_body_words(uint least_substeps, uint most_substeps)
+inline uint fast_body_words(uint fewest_substeps, uint most_substeps)
 {
-    return 2u * uint(findMSB(most_substeps / least_substeps)) + 1u;
+    return 2u * uint(findMSB(most_substeps / fewest_substeps)) + 1u;
 }
 
 // Words of BodyColours.

@@ -31,13 +31,15 @@ inline ContactRate find_rate(uint demand, BodyInertia a, BodyInertia b, Paramete
     ContactRate rate;
     rate.substeps = max(max(choose(pushes_a, a.substeps, 1u), choose(pushes_b, b.substeps, 1u)), 1u);
     rate.trait = 0u;
-    bool multirate = is_multirate(choose(pushes_a, a.traits, b.traits));
+    uint its_traits = choose(pushes_a, a.traits, b.traits);
+    bool multirate = is_multirate(its_traits);
     if (!any_lane(multirate)) return rate;
     uint ticks = choose(pushes_a, ticks_of(a.substeps, a.traits), ticks_of(b.substeps, b.traits));
     uint slower = min(choose(pushes_a, a.substeps, ticks), choose(pushes_b, b.substeps, ticks));
-    uint own = min(multirate_substeps(substeps_of(demand), foot_rate_of(demand), p), slower);
+    bool has_tall = (its_traits & k_trait_of_tall) != 0u;
+    uint own = min(multirate_substeps(substeps_of(demand), foot_rate_of(demand), has_tall, p), slower);
     rate.substeps = choose_active(multirate, own, rate.substeps);
-    rate.trait = choose_active(multirate, slowness_trait(ticks, own), 0u);
+    rate.trait = choose_active(multirate, slowness_trait(ticks, own) | (its_traits & k_trait_of_tall), 0u);
     return rate;
 }
 
@@ -233,7 +235,8 @@ inline uint column_height(Standing standing, float weights, float inverse_mass_a
 }
 
 // The sub-steps that a load asks for in the next step. `height`: of the column that carries it.
-inline Manifold follow_load(Manifold manifold, float weights, float yielding, uint height, bool against_static, Parameters p)
+inline Manifold follow_load(Manifold manifold, float weights, float yielding, uint height, bool against_static, uint least,
+                            Parameters p)
 {
     float mean = next_mean_load(manifold.weights, weights);
     uint substeps = substeps_of(manifold.demand);
@@ -242,15 +245,15 @@ inline Manifold follow_load(Manifold manifold, float weights, float yielding, ui
     bool on_trial = idle_steps >= k_trial && !grows;
     if (on_trial) height = k_unknown_height;
     float needed = needed_substeps(mean, yielding, height, against_static);
-    uint wanted = substeps_for(needed, p);
+    uint wanted = substeps_for(needed, least, p);
     bool half_would_do = on_trial || 2u * wanted <= substeps;
-    uint fewer = half_would_do ? max(wanted, substeps / 2u) : fewer_substeps(substeps, p);
+    uint fewer = half_would_do ? max(wanted, substeps / 2u) : fewer_substeps(substeps, least);
     precise float with_some_to_spare = k_to_spare * needed;
     bool idle = half_would_do || (fewer < substeps && with_some_to_spare <= float(fewer));
     if (wanted > substeps) {
         idle_steps = grows ? idle_steps + 1u : k_growing + 1u;
         if (idle_steps == k_growing + k_growing_steps) {
-            substeps = more_substeps(substeps, p);
+            substeps = more_substeps(substeps, least, p);
             idle_steps = 0u;
         }
     } else {
@@ -293,10 +296,13 @@ inline Manifold finish_manifold(Manifold manifold, ContactConstraint c, Standing
     manifold.twist_impulse = friction.z;
     float weights = weights_on(sum4(normal_impulse), c.inverse_mass_a, c.inverse_mass_b, p);
     uint height = column_height(standing, manifold.weights, c.inverse_mass_a, c.inverse_mass_b, mass_told, height_told, p);
-    float yielding = is_multirate(c.traits)
-                         ? yielding_of(normal_impulse, c.normal_mass, max(c.inverse_mass_a, c.inverse_mass_b))
-                         : 1.0f;
-    manifold = follow_load(manifold, weights, yielding, height, is_against_static(c.traits), p);
+    float yielding = 1.0f;
+    uint least = p.least_substeps;
+    if (is_multirate(c.traits)) {
+        yielding = yielding_of(normal_impulse, c.normal_mass, max(c.inverse_mass_a, c.inverse_mass_b));
+        least = fewest_in_island((c.traits & k_trait_of_tall) != 0u, p);
+    }
+    manifold = follow_load(manifold, weights, yielding, height, is_against_static(c.traits), least, p);
     uint demand = manifold.demand;
     uint rate = foot_rate(demand, standing, foot_told, mass_below, p);
     manifold.demand = make_demand(substeps_of(demand), idle_steps_of(demand), rate, height_of(demand));

@@ -46,14 +46,17 @@ void main()
     island_groups[body] = group;
     island_places[body] = place;
     island_bodies[place] = body;
-    uint of_island = number_of_substeps(substeps[island]);
+    uint of_island = max(number_of_substeps(substeps[island]), parameters.least_substeps);
     uint ticks = args.z != k_none ? doubled_substeps(of_island, parameters) : of_island;
     if (multirate) {
         if (body == island) atomicAdd(counters[k_counter_multirate_islands], 1u);
+        bool tall = (island_fill[island] & k_tall) != 0u;
+        if (body == island && !tall) atomicAdd(counters[k_counter_low_islands], 1u);
         // The island's own body has the most: others read it.
-        uint own = multirate_substeps(number_of_substeps(substeps[body]), foot_rate_at(island_sizes[body]), parameters);
-        substeps[body] = k_multirate | (body == island ? ticks : min(own, ticks)); // a rate is told a step later
-    } else if (body != island) {
+        uint own = multirate_substeps(number_of_substeps(substeps[body]), foot_rate_at(island_sizes[body]), tall, parameters);
+        own = body == island ? ticks : min(own, ticks); // a rate is told a step later
+        substeps[body] = own | k_multirate | (tall ? k_multirate_tall : 0u);
+    } else {
         substeps[body] = of_island;
     }
     if (body == island && is_single(size) && !multirate) atomicAdd(counters[k_counter_singles], 1u);

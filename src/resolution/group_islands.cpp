@@ -26,14 +26,17 @@ static void group_islands_on_cpu(CpuState& state, const Launch& launch) {
         if (body == island && is_single(size) && !multirate) ++state.counters[k_counter_singles];
         state.island_places[body] = place;
         state.island_bodies[place] = body;
-        const uint of_island = number_of_substeps(state.substeps[island]);
+        const uint of_island = max(number_of_substeps(state.substeps[island]), p.least_substeps);
         const uint ticks = launch.args[2] != k_none ? doubled_substeps(of_island, p) : of_island;
         if (multirate) {
             if (body == island) ++state.counters[k_counter_multirate_islands];
-            const uint own =
-                multirate_substeps(number_of_substeps(state.substeps[body]), foot_rate_at(state.island_sizes[body]), p);
+            const bool tall = (state.island_fill[island] & k_tall) != 0;
+            const uint own = multirate_substeps(number_of_substeps(state.substeps[body]),
+                                                foot_rate_at(state.island_sizes[body]), tall, p);
+            if (body == island && !tall) ++state.counters[k_counter_low_islands];
+            // A rate is told a step later.
             state.substeps[body] =
-                k_multirate | (body == island ? ticks : min(own, ticks)); // a rate is told a step later
+                (body == island ? ticks : min(own, ticks)) | k_multirate | (tall ? k_multirate_tall : 0);
         } else {
             state.substeps[body] = of_island;
         }

@@ -44,14 +44,15 @@ inline uint order_of_root(uint body) { return body * 0x9e3779b1u; }
 // In IslandFill, beside a count of bodies that have a place. A body may be restless, or touch one that is; an island is awake
 // where any of it is or does. Quiet is what stands, and what sleeps as a part of a large island: contacts between the quiet join
 // nothing, as such a part stands for its island. It is reached where something else touches it. Once it is known who sleeps: a sleeper
-// that something awake touches is pressed.
+// that something awake touches is pressed. And an island is tall where some contact of it has a foot rate.
 const uint k_restless = 0x80000000u;
 const uint k_touched = 0x40000000u;
 const uint k_awake = 0x20000000u;
 const uint k_pressed = 0x10000000u;
 const uint k_quiet = 0x08000000u;
 const uint k_reached = 0x04000000u;
-const uint k_fill_count = 0x03ffffffu;
+const uint k_tall = 0x02000000u;
+const uint k_fill_count = 0x01ffffffu;
 
 // What join_islands joins: all that contacts can push; the same, and it notes what restless bodies touch; or what is awake, of which it
 // is known already what it asks for.

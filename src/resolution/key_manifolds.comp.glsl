@@ -49,7 +49,8 @@ void main()
         return;
     }
     bool in_order = (substeps[body] & k_multirate) != 0u && colour < k_first_hub_colour;
-    uint its_substeps = multirate_substeps(substeps_of(manifold.demand), foot_rate_of(manifold.demand), parameters);
+    uint its_substeps = multirate_substeps(substeps_of(manifold.demand), foot_rate_of(manifold.demand),
+                                           (substeps[body] & k_multirate_tall) != 0u, parameters);
     keys[entry] =
         launched_key(colour, choose(in_order, slowness_at(counters[k_counter_launched_substeps], its_substeps), 0u));
     if (colour < k_first_hub_colour) raise_counter(k_counter_launched_colours, colours_down_to(colour));

@@ -29,8 +29,8 @@ static void key_manifolds_on_cpu(CpuState& state, const Launch& launch) {
             continue;
         }
         const bool in_order = (state.substeps[body] & k_multirate) != 0 && colour < k_first_hub_colour;
-        const uint substeps =
-            multirate_substeps(substeps_of(manifold.demand), foot_rate_of(manifold.demand), state.parameters);
+        const uint substeps = multirate_substeps(substeps_of(manifold.demand), foot_rate_of(manifold.demand),
+                                                 (state.substeps[body] & k_multirate_tall) != 0, state.parameters);
         key = launched_key(colour, in_order ? slowness_at(state.counters[k_counter_launched_substeps], substeps) : 0);
         uint& colours = state.counters[k_counter_launched_colours];
         if (colour < k_first_hub_colour) colours = max(colours, colours_down_to(colour));

@@ -34,25 +34,28 @@ inline uint substep_level(uint level, uint least)
     return (level & 1u) == 0u ? whole : whole + whole / 2u;
 }
 
-// The lowest number in use that is at least `number`, and no more than the most.
-inline uint substeps_for(float number, Parameters p)
+// The lowest number in use from `least` on that is at least `number`, and no more than the most.
+inline uint substeps_for(float number, uint least, Parameters p)
 {
     for (uint level = 0u; level < 16u; level += 1u) {
-        uint substeps = substep_level(level, p.least_substeps);
+        uint substeps = substep_level(level, least);
         if (substeps >= p.most_substeps) return p.most_substeps;
         if (float(substeps) >= number) return substeps;
     }
     return p.most_substeps;
 }
 
-inline uint more_substeps(uint substeps, Parameters p) { return substeps_for(float(substeps + 1u), p); }
+inline uint more_substeps(uint substeps, uint least, Parameters p)
+{
+    return substeps_for(float(substeps + 1u), least, p);
+}
 
 // The next lower number in use, or the same.
-inline uint fewer_substeps(uint substeps, Parameters p)
+inline uint fewer_substeps(uint substeps, uint least)
 {
-    uint fewer = min(p.least_substeps, substeps);
-    for (uint level = 1u; level < 16u && substep_level(level, p.least_substeps) < substeps; level += 1u)
-        fewer = substep_level(level, p.least_substeps);
+    uint fewer = min(least, substeps);
+    for (uint level = 1u; level < 16u && substep_level(level, least) < substeps; level += 1u)
+        fewer = substep_level(level, least);
     return fewer;
 }
 

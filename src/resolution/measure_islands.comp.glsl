@@ -52,6 +52,8 @@ void main()
     atomicMax(substeps[island], substeps[body]);
     bool keeps_awake = (island_fill[body] & (k_restless | k_touched)) != 0u;
     if (keeps_awake && (island_fill[island] & k_awake) == 0u) atomicOr(island_fill[island], k_awake);
+    bool is_tall = foot_rate_at(island_sizes[body]) != 0u;
+    if (is_tall && (island_fill[island] & k_tall) == 0u) atomicOr(island_fill[island], k_tall);
     bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
     atomicAdd(island_sizes[island], is_hub ? 1u + k_most_single : 1u);
     if (is_part)

@@ -65,7 +65,7 @@ void main()
     bool is_new = args.z == 0u && made_for != 0u;
     if (launches) find_offsets(is_new, measured);
     if (args.z == 1u && due) did_not_fit |= k_fit_graph;
-    if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && parameters.overflow_capacity == 0u)))
+    if (launches && (colours > parameters.colour_capacity || (overflow_count > 0u && args.w == 0u)))
         did_not_fit |= k_fit_colours;
     if (launches && substeps > parameters.substep_capacity) did_not_fit |= k_fit_substeps;
     uint awake_count = counters[k_counter_manifold_count]; // of a graph that lasts those that sleep are taken off already

@@ -36,7 +36,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     const uint colours = counters[measured ? k_counter_launched_colours : k_counter_colour_demand];
     const uint substeps = counters[measured ? k_counter_launched_substeps : k_counter_substep_demand];
     const uint overflow_count = counters[measured ? k_counter_launched_overflow : k_counter_overflow_count];
-    if (launches && (colours > p.colour_capacity || (overflow_count > 0 && p.overflow_capacity == 0)))
+    if (launches && (colours > p.colour_capacity || (overflow_count > 0 && launch.args[3] == 0)))
         did_not_fit |= k_fit_colours;
     if (launches && substeps > p.substep_capacity) did_not_fit |= k_fit_substeps;
     if (is_new) counters[k_counter_manifold_count] -= counters[k_counter_sleeping_manifolds];

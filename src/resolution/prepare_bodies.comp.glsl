@@ -86,6 +86,7 @@ bool prepare(uint body)
     inertia.traits |= traits_in_graph(inertia.traits, body_colours[body_word(body, k_used_low)],
                                       body_colours[body_word(body, k_used_high)], body_colours[body_word(body, k_hub_word)]);
     if (word != its_substeps) inertia.traits |= slowness_trait(ticks, its_substeps);
+    if ((word & k_multirate_tall) != 0u) inertia.traits |= k_trait_of_tall;
     if ((args.w & k_with_loads) != 0u && is_loaded(unpack(loads[body]))) inertia.traits |= k_trait_loaded;
     if (args.y == 1u && island_groups[body] != k_launched) inertia.traits |= k_trait_grouped;
     inertias[body] = pack(inertia);

@@ -44,6 +44,7 @@ static void prepare_bodies_on_cpu(CpuState& state, const Launch& launch) {
         state.inertias[body].traits |=
             traits_in_graph(state.inertias[body].traits, words[k_used_low], words[k_used_high], words[k_hub_word]);
         if (word != substeps) state.inertias[body].traits |= slowness_trait(ticks, substeps);
+        if ((word & k_multirate_tall) != 0) state.inertias[body].traits |= k_trait_of_tall;
         if ((launch.args[3] & k_with_loads) != 0 && is_loaded(state.loads[body]))
             state.inertias[body].traits |= k_trait_loaded;
         if (launch.args[1] == 1 && state.island_groups[body] != k_launched)

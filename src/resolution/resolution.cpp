@@ -109,7 +109,7 @@ void constraint_graph(Device& device, const StepPlan& plan) {
         device.run({.kernel = weigh_hubs, .items = plan.weighing_groups});
     device.run({.kernel = plan_colours,
                 .items = 1,
-                .args = {plan.measures_islands(), plan.needs_launches(), !plan.makes_graph}});
+                .args = {plan.measures_islands(), plan.needs_launches(), !plan.makes_graph, plan.overflow}});
 }
 
 std::size_t records_with_hits(uint bodies, uint manifolds) {
@@ -125,7 +125,7 @@ static void reserve_for_solve(Device& device, const StepPlan& plan) {
         device.grow(BufferId::WarmStarts,
                     records_with_hits(plan.body_count, plan.manifold_capacity) * sizeof(BodyWarmStart));
     if (plan.persistent_groups == 0 || !plan.needs_launches() || !plan.may_be_multirate()) return;
-    const uint words = fast_body_words(plan.least_substeps, plan.most_substeps);
+    const uint words = fast_body_words(plan.fewest_substeps(), plan.most_substeps);
     device.grow(BufferId::FastBodies, sizeof(uint) * words * plan.body_count);
 }
 

@@ -84,7 +84,7 @@ void take_stamps_away(uint body)
 // A body slot's words: the colours of its fast contacts, two words for each power (see below); then one of the list of bodies.
 layout(std430) coherent buffer FastBodies { uint fast_bodies[]; };
 
-uint words_of_body() { return fast_body_words(parameters.least_substeps, parameters.most_substeps); }
+uint words_of_body() { return fast_body_words(parameters.fewest_substeps, parameters.most_substeps); }
 uint list_word(uint place) { return words_of_body() * place + words_of_body() - 1u; }
 
 void list_fast_body(uint body) { fast_bodies[list_word(atomicAdd(arrivals[k_all_fast_bodies], 1u))] = body; }

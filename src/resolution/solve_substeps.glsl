@@ -112,7 +112,8 @@ Substep substep_in_hand(float present_load_speed)
 // `last`: the ticks, as many as the most sub-steps that a body has.
 void solve_substeps(uint last)
 {
-    like_substeps = is_multirate_solve() ? parameters.least_substeps : last;
+    like_substeps = last;
+    if (is_multirate_solve()) like_substeps = fewest_in_island(counters[k_counter_low_islands] == 0u, parameters);
     ticks_apart = last / like_substeps;
     find_own_manifolds();
     find_usual_substeps(); // all wait before the first pass

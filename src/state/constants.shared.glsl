@@ -43,6 +43,7 @@ const uint k_trait_moves = 16u;  // it is rigid or kinematic, and neither frozen
 const uint k_trait_loaded = 32u; // the caller pushes it in this step: what has no load need not be asked for it in each sub-step
 const uint k_trait_grouped = 64u; // of an island that a work group solves
 const uint k_contacts_of_body = 9u; // from this bit on, 6 of them: contacts in all colours but those of hubs
+const uint k_trait_of_tall = 0x8000u; // of a multirate island in which a column is tall; in a constraint, too
 const uint k_trait_whole_hub = 256u; // only in a constraint: of a hub, in a colour where that is a body as others are
 
 // BodyProperties::combine
@@ -120,7 +121,8 @@ const uint k_counter_unsettled_pairs = 42u; // whose contacts are not there from
 const uint k_counter_awake = 43u; // 1 where a body is awake, or moves as its caller says; only while islands may sleep
 const uint k_counter_all_strays = 44u; // since the last search of all
 const uint k_counter_searched_tree = 45u; // 1 where strays of this step searched the tree
-const uint k_counter_words = 46u;
+const uint k_counter_low_islands = 46u; // multirate ones that launches solve, without a tall column
+const uint k_counter_words = 47u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;

@@ -278,14 +278,14 @@ struct Parameters {
     float max_angular_speed;
     float speculative_distance; // m
     uint body_count; // body slots in use, holes included
-    uint least_substeps;
+    uint least_substeps;    // of an island
+    uint fewest_substeps;   // of a contact in a multirate island
     uint most_substeps;
     uint substep_capacity; // sub-steps that get launches
     uint iterations;
     uint relax; // 1 where a pass without bias ends the step
     uint pair_capacity;
     uint colour_capacity;
-    uint overflow_capacity; // 1 where the overflow set has launches
     uint table_size; // slots of the pair table, a power of two
     uint usable_colours; // 0 where manifolds are solved one after the other
     uint hub_contacts;   // a body with more manifolds is a hub
