@@ -75,14 +75,13 @@ struct StepPlan {
     /// In a large world; also where no more is wanted of them than whether they sleep.
     bool measures_islands() const { return !small && (!one_island || sleeping); }
     /// A kinematic body may touch several islands, and moves in one number of sub-steps; what bounces has hits, which
-    /// are solved at once. Numbers of sub-steps are doubles of the least one, up to the most.
+    /// are solved at once. The most sub-steps are the least, doubled some times.
     bool may_be_multirate() const {
-        const bool most_is_double =
-            most_substeps % least_substeps == 0 && std::has_single_bit(most_substeps / least_substeps);
-        return !small && !one_island && !bounces && most_is_double && body_count >= least_multirate;
+        if (small || one_island || bounces || body_count < least_multirate) return false;
+        return most_substeps % least_substeps == 0 && std::has_single_bit(most_substeps / least_substeps);
     }
-    /// Of a contact in a multirate island: half of the least number of any other, unless the caller has said how many
-    /// there are. Not where bodies may sleep: what rests on softer contacts comes to rest later.
+    /// Of a contact in a multirate island: half of the least number of any other, if that is even and not the most.
+    /// Not where bodies may sleep: what rests on softer contacts comes to rest later.
     uint fewest_substeps() const {
         const bool halves =
             may_be_multirate() && !sleeping && most_substeps > least_substeps && least_substeps % 2 == 0;

@@ -51,8 +51,8 @@ struct Settings {
     Vec3 gravity{0.0f, -9.81f, 0.0f};                  ///< m/s²
     float dt = 1.0f / 60.0f;                           ///< s, the length of one step
     Stabilisation stabilisation = Stabilisation::Soft; ///< how overlap is undone
-    /// Soft: sub-steps a step, at least. In a heap of more than 65,535 bodies that may not sleep, contacts that need no
-    /// more have half of that, where max_substeps leaves a choice. Not used by Baumgarte.
+    /// Soft: sub-steps a step, at least; but contacts of a heap of more than 65,535 bodies that may not sleep have half
+    /// of an even number if they need no more (docs/solver.md, Large islands). Not used by Baumgarte.
     std::uint32_t substeps = 8;
     std::uint32_t max_substeps = 128;   ///< soft: the most that an island gets whose bodies carry heavy loads
     std::uint32_t iterations = 1;       ///< solver passes: a sub-step (soft) or a step (Baumgarte; set about 10 there)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the last step's constraint graph is not this one's: the first invocation sets the counts to nothing, and plans the launches
-// that make it. Each is a body slot: no colour in use, no rank seen, no hub; and an island of its own, of the least sub-steps, if
+// that make it. Each is a body slot: no colour in use, no rank seen, no hub; and an island of its own, of the fewest sub-steps, if
 // contacts can push it. Where bodies may sleep, who is restless, and who is quiet. Where the graph lasts these launches, and those that
 // follow, do nothing.
 // args.x: 1 where islands are measured. args.y: 1 where parts of them may sleep.

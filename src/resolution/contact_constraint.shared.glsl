@@ -219,7 +219,7 @@ inline uint foot_rate(uint demand, Standing standing, uint told, uint mass, Para
     bool had_rate = foot_rate_of(demand) > 0u;
     uint of_column = choose(standing.is_storey && mass >= choose(had_rate, k_enough_to_stay, k_enough_to_join), told, 0u);
     bool is_tall = height_of(demand) >= choose(had_rate, k_height_to_stay, k_tall_height);
-    return max(of_column, choose(is_tall, 1u + doublings_for(substeps_of(demand), p), 0u));
+    return max(of_column, choose(is_tall, 1u + doublings_for(substeps_of(demand), p.least_substeps, p), 0u));
 }
 
 // Of a manifold with this load. What the body above has been told: see load.shared.glsl. Without gravity nothing says what

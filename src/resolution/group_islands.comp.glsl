@@ -4,8 +4,8 @@
 // and moves by launches.
 // args.x: 1 where work groups solve islands. args.y: 1 where also those do that solve a single one. args.z: the size from
 // which on an island is multirate; k_none: none is. args.w: 1 where Substeps says whether a body's island is.
-// Reads: Shapes, Islands, IslandSizes, IslandStarts (scanned).
-// Writes: Substeps, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
+// Reads: Shapes, Islands, IslandSizes, IslandStarts (scanned), IslandFill.
+// Writes: Substeps, IslandFill, IslandGroups, IslandPlaces, IslandBodies, Counters. The order within an island depends on who comes
 // first; nothing that is made from it does.
 // Needs: a barrier after the scan of IslandStarts.
 // Overflow: none.

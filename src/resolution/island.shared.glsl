@@ -44,7 +44,8 @@ inline uint order_of_root(uint body) { return body * 0x9e3779b1u; }
 // In IslandFill, beside a count of bodies that have a place. A body may be restless, or touch one that is; an island is awake
 // where any of it is or does. Quiet is what stands, and what sleeps as a part of a large island: contacts between the quiet join
 // nothing, as such a part stands for its island. It is reached where something else touches it. Once it is known who sleeps: a sleeper
-// that something awake touches is pressed. And an island is tall where some contact of it has a foot rate.
+// that something awake touches is pressed. A body is tall where a contact of it stands in a tall column, and an island
+// where any body of it is; that is forgotten where parts of islands may sleep, and of no use.
 const uint k_restless = 0x80000000u;
 const uint k_touched = 0x40000000u;
 const uint k_awake = 0x20000000u;

@@ -66,6 +66,7 @@ void ask_for_substeps(uint body, uint demand)
     atomicMax(substeps[body], substeps_of(demand));
     if (foot_rate_at(island_sizes[body]) < foot_rate_of(demand))
         atomicMax(island_sizes[body], foot_rate_of(demand) << k_foot_rate_shift);
+    if (is_in_tall_column(demand)) note(body, k_tall);
 }
 
 bool is_quiet(uint body) { return (island_fill[body] & k_quiet) != 0u; }

@@ -10,6 +10,7 @@ namespace talus::engine {
 static void ask_for_substeps(CpuState& state, uint body, uint demand) {
     state.substeps[body] = max(state.substeps[body], substeps_of(demand));
     state.island_sizes[body] = max(state.island_sizes[body], foot_rate_of(demand) << k_foot_rate_shift);
+    if (is_in_tall_column(demand)) state.island_fill[body] |= k_tall;
 }
 
 static void join_islands_on_cpu(CpuState& state, const Launch& launch) {

@@ -169,6 +169,11 @@ inline uint idle_steps_of(uint demand) { return (demand >> 10u) & 0x7ffu; }
 inline uint foot_rate_of(uint demand) { return (demand >> 21u) & 7u; }
 inline uint height_of(uint demand) { return demand >> 24u; }
 
+inline bool is_on_trial(uint demand) { return idle_steps_of(demand) >= k_trial && idle_steps_of(demand) < k_growing; }
+
+// Whether it is known that the manifold stands in a tall column: while a load is not known, nor is a height.
+inline bool is_in_tall_column(uint demand) { return foot_rate_of(demand) > 0u && !is_on_trial(demand); }
+
 // Whether the same islands with the same sub-steps follow from both. An island has as many as the contact of it that asks for
 // most, `of_island`, and what others ask for makes no difference; but it does where some island of the world may be multirate.
 inline bool asks_alike(uint demand, uint other, uint of_island, bool may_be_multirate)

@@ -5,7 +5,7 @@
 // reached it.
 // Reads: Counters, BodyColours; of such parts Rests.
 // Writes: Islands; of the island IslandSizes, IslandStarts (its bodies, or where it is asked who sleeps what its parts say) and Substeps;
-// in IslandFill, that it is awake.
+// in IslandFill, that it is awake, or tall.
 // Needs: barriers after join_islands and assign_colours; where it is asked who sleeps, for which hubs do not count, after the first alone.
 // Overflow: none.
 #include "state/math.shared.glsl"
@@ -52,7 +52,7 @@ void main()
     atomicMax(substeps[island], substeps[body]);
     bool keeps_awake = (island_fill[body] & (k_restless | k_touched)) != 0u;
     if (keeps_awake && (island_fill[island] & k_awake) == 0u) atomicOr(island_fill[island], k_awake);
-    bool is_tall = foot_rate_at(island_sizes[body]) != 0u;
+    bool is_tall = (island_fill[body] & k_tall) != 0u;
     if (is_tall && (island_fill[island] & k_tall) == 0u) atomicOr(island_fill[island], k_tall);
     bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
     atomicAdd(island_sizes[island], is_hub ? 1u + k_most_single : 1u);

@@ -21,7 +21,7 @@ static void measure_islands_on_cpu(CpuState& state, const Launch& launch) {
         const uint island = state.islands[body] = root_of(state.islands, body);
         state.substeps[island] = max(state.substeps[island], state.substeps[body]);
         if ((state.island_fill[body] & (k_restless | k_touched)) != 0) state.island_fill[island] |= k_awake;
-        if (foot_rate_at(state.island_sizes[body]) != 0) state.island_fill[island] |= k_tall;
+        state.island_fill[island] |= state.island_fill[body] & k_tall;
         const bool is_hub = state.body_colours[body_word(body, k_hub_word)] != 0;
         state.island_sizes[island] += is_hub ? 1 + k_most_single : 1;
         if (is_part)

@@ -12,25 +12,28 @@ const uint k_slowness_shift = 16u; // in traits, from this bit on: 1 + r; 0 wher
 
 inline uint number_of_substeps(uint word) { return word & (k_multirate - 1u); }
 
-// How often the fewest are doubled for as many as that, or for the most that there may be.
-inline uint doublings_for(uint number, Parameters p)
+// How often `least` is doubled for as many as that, or for the most that there may be.
+inline uint doublings_for(uint number, uint least, Parameters p)
 {
     uint doublings = 0u;
     for (uint i = 0u; any_lane(i < k_most_doublings); i += 1u) {
-        bool too_few = (p.fewest_substeps << doublings) < number && (p.fewest_substeps << (doublings + 1u)) <= p.most_substeps;
+        bool too_few = (least << doublings) < number && (least << (doublings + 1u)) <= p.most_substeps;
         doublings += choose(too_few, 1u, 0u);
     }
     return doublings;
 }
 
 // Of the fewest and their doubles up to the most, the lowest number that is enough.
-inline uint doubled_substeps(uint number, Parameters p) { return p.fewest_substeps << doublings_for(number, p); }
+inline uint doubled_substeps(uint number, Parameters p)
+{
+    return p.fewest_substeps << doublings_for(number, p.fewest_substeps, p);
+}
 
 // ---- tall columns ----
 //
 // A tall column has to be as stiff above as it is at its foot, where it carries most: with what each contact of it asks for by its
 // own load a tower of 50 boxes fell that has 32 sub-steps as an island of its own. So contacts of a tall column tell the body above
-// them what its foot asks for, one contact a step. A foot rate is 1 + r where that is the fewest doubled r times; 0: the
+// them what its foot asks for, one contact a step. A foot rate is 1 + r where that is the least number of an island doubled r times; 0: the
 // contact is in no tall column.
 //
 // Other numbers shake what stands, by which heights and loads change a little: so a contact that has a rate keeps it below what
@@ -42,15 +45,14 @@ const uint k_height_to_stay = 15u;
 const uint k_enough_to_join = 40u; // of k_told_mass, in parts of the body's own: 2.5
 const uint k_enough_to_stay = 24u; // 1.5
 
-// In an island with a tall column no contact has fewer than the least number: what stands is soft enough with that.
+// Contacts of an island with a tall column have the least number of other islands: what stands is soft enough with that.
 inline uint fewest_in_island(bool has_tall, Parameters p) { return choose(has_tall, p.least_substeps, p.fewest_substeps); }
 
 // The sub-steps of what asks for a number, with such a foot rate.
 inline uint multirate_substeps(uint number, uint rate, bool has_tall, Parameters p)
 {
-    uint of_foot = p.fewest_substeps << (max(rate, 1u) - 1u);
-    uint asked = max(doubled_substeps(number, p), min(of_foot, p.most_substeps)); // which the caller may have lowered
-    return max(asked, fewest_in_island(has_tall, p));
+    uint of_foot = choose(rate > 0u, p.least_substeps << (max(rate, 1u) - 1u), fewest_in_island(has_tall, p));
+    return max(doubled_substeps(number, p), min(of_foot, p.most_substeps)); // which the caller may have lowered
 }
 
 inline bool is_multirate(uint traits) { return (traits >> k_slowness_shift) != 0u; }

@@ -2,7 +2,7 @@
 // One group, an invocation for each colour: where it begins, and where what has a rate in it ends; whether the colours and the
 // sub-steps fit, and the launches of the resolution. args.x: 1 where what is launched has been counted apart. args.y: 0 where a
 // work group solves each island, so that colours and sub-steps need no launches; hubs cannot be solved there. args.z: 1 where the
-// graph has not been made, as it should be the last step's.
+// graph has not been made, as it should be the last step's. args.w: 1 where the overflow set has launches.
 // Reads: ManifoldKeys, Counters.
 // Writes: ColourOffsets, where the graph is a new one; Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.

@@ -60,7 +60,7 @@ const uint k_first_hub_colour = 62u;
 const uint k_overflow_colour = 64u;
 const uint k_colour_offsets = k_overflow_colour + 2u; // where each of these begins, and the end
 // Behind them: where in each colour ends what has a slowness, or a lesser one, in multirate islands; of all but the last slowness.
-const uint k_most_doublings = 5u; // of the least sub-steps
+const uint k_most_doublings = 5u; // of the fewest sub-steps
 const uint k_slownesses = k_most_doublings + 1u;
 const uint k_rate_ends = k_colour_offsets;
 const uint k_offset_words = k_rate_ends + k_most_doublings * k_max_colours;
