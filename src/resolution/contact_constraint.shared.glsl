@@ -242,7 +242,7 @@ inline Manifold follow_load(Manifold manifold, float weights, float yielding, ui
     uint substeps = substeps_of(manifold.demand);
     uint idle_steps = idle_steps_of(manifold.demand);
     bool grows = idle_steps >= k_growing;
-    bool on_trial = idle_steps >= k_trial && !grows;
+    bool on_trial = is_on_trial(manifold.demand);
     if (on_trial) height = k_unknown_height;
     float needed = needed_substeps(mean, yielding, height, against_static);
     uint wanted = substeps_for(needed, least, p);
