@@ -103,7 +103,7 @@ void Simulation::begin_on_cpu() {
             for (std::size_t i = 0; i < k_buffers.size(); ++i) {
                 const BufferId buffer = static_cast<BufferId>(i);
                 const bool shares_a_place = std::ranges::find(k_by_turns, buffer) != k_by_turns.end();
-                if (!shares_a_place) host->grow(buffer, gpu->size(buffer));
+                if (!shares_a_place && buffer != BufferId::FastBodies) host->grow(buffer, gpu->size(buffer));
             }
             host->grow(BufferId::Uncoloured, plan.pair_capacity * sizeof(uint));
         } catch (const Error& error) {

@@ -274,11 +274,16 @@ void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
     if (has_hits) grow_everywhere(BufferId::WarmStarts, records_with_hits(slots, manifold_capacity));
     const uint table_size = std::bit_ceil(2 * pair_capacity);
     const uint partners = k_kept_partners * slots; // the search keeps them in PairTable on a GPU
-    ContactDemand demand{pair_capacity, manifold_capacity, std::max(table_size, partners), boxes_of_search(slots),
-                         watches_contacts()};
+    ContactDemand demand{.pairs = pair_capacity,
+                         .manifolds = manifold_capacity,
+                         .table_size = std::max(table_size, partners),
+                         .boxes = boxes_of_search(slots),
+                         .sorted = std::max({pair_capacity, slots, k_mark_words}), // and marks of pairs lie there
+                         .fast_words = words_of_fast_bodies(slots),
+                         .keeps_old = watches_contacts()};
     if (cpu) cpu->reserve_contacts(demand);
     if (info.kind == DeviceKind::Hybrid) { // nothing is solved, and no watch told, on the other one
-        demand.manifolds = 0;
+        demand.manifolds = demand.fast_words = 0;
         demand.keeps_old = false;
     }
     if (gpu) gpu->reserve_contacts(demand);
@@ -331,9 +336,19 @@ void Simulation::set_settings(const Settings& wanted) {
         reserve_rests(body_capacity);
         reserve_loads(); // which say who has to wake
     }
-    if (wanted.broad_phase != settings.broad_phase) search_anew();
+    const uint words_before = words_of_fast_bodies(body_capacity);
+    const Settings before = std::exchange(settings, wanted);
+    if (words_of_fast_bodies(body_capacity) > words_before) {
+        try {
+            settle();
+            grow_contacts(0, 0);
+        } catch (const Error&) {
+            settings = before;
+            throw;
+        }
+    }
+    if (wanted.broad_phase != before.broad_phase) search_anew();
     begin_graph_anew();
-    settings = wanted;
 }
 
 void Simulation::begin_graph_anew() {
@@ -405,6 +420,25 @@ void Simulation::write_body_count(uint slots) {
     enqueued_slots = slots;
 }
 
+/// `plan.small` is known.
+static void set_substeps(StepPlan& plan, const Settings& settings) {
+    const Passes passes = passes_of(settings);
+    plan.sleeping = settings.sleeping;
+    plan.least_substeps = passes.least_substeps;
+    plan.most_substeps = plan.small
+                             ? passes.most_substeps
+                             : std::clamp(k_most_substeps_of_large, passes.least_substeps, passes.most_substeps);
+}
+
+uint Simulation::words_of_fast_bodies(uint slots) const {
+    StepPlan multirate = plan;
+    multirate.body_count = slots;
+    multirate.small = slots <= k_island_bodies;
+    multirate.one_island = multirate.bounces = false;
+    set_substeps(multirate, settings);
+    return engine::words_of_fast_bodies(multirate);
+}
+
 StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve solve) const {
     const Passes passes = passes_of(settings);
     StepPlan now = plan;
@@ -421,7 +455,6 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     now.singles = plan.singles && now.has_groups();
     now.bounces = population.some_bounce;
     now.kinematic = population.some_kinematic;
-    now.sleeping = settings.sleeping;
     now.loads = has_loads;
     now.waking = settings.sleeping ? population.waking : Waking::None;
     if (may_lie_beside(population)) {
@@ -431,9 +464,7 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     }
     if (settings.solve_order == SolveOrder::Sequential) now.overflow_count = k_none; // all
     now.overflow = now.overflow_count > 0;
-    now.least_substeps = passes.least_substeps;
-    now.most_substeps = now.small ? passes.most_substeps
-                                  : std::clamp(k_most_substeps_of_large, passes.least_substeps, passes.most_substeps);
+    set_substeps(now, settings);
     // None where work groups have lately done all the work, or all has slept.
     const bool launches = !(now.has_groups() || (now.sleeping && !now.small)) || plan.substep_capacity > 0;
     now.substep_capacity = launches ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;

@@ -184,6 +184,8 @@ private:
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
     void grow_contacts(uint pairs, uint manifolds, uint bodies = 0);
+    /// Of FastBodies, for so many body slots with these settings.
+    uint words_of_fast_bodies(uint slots) const;
     /// For so many and some to spare, or at least for so many, at one go; 0: there is room.
     void make_contact_room(uint pairs, uint manifolds);
     void make_hub_room(uint manifolds);

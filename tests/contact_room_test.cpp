@@ -57,28 +57,41 @@ std::vector<ContactRoom> ways_with_few_constraints(const ContactRoom& room) {
     return all;
 }
 
-ContactRoom room_for(uint pairs, uint manifolds, bool keeps_old, uint table_size = 0, uint boxes = 0) {
-    return ContactRoom({pairs, manifolds, table_size, boxes, keeps_old});
+ContactDemand demand_of(uint pairs, uint manifolds, bool keeps_old = false, uint table_size = 0, uint boxes = 0) {
+    ContactDemand demand;
+    demand.pairs = pairs;
+    demand.manifolds = manifolds;
+    demand.table_size = table_size;
+    demand.boxes = boxes;
+    demand.keeps_old = keeps_old;
+    return demand;
 }
 
-constexpr std::array<ContactDemand, 10> k_sizes{{{0, 0, 0, 0},
-                                                 {1, 1, 2, 5},
-                                                 {3, 0, 8, 2},
-                                                 {3, 3, 8, 0},
-                                                 {64, 64, 128, 64},
-                                                 {100, 900, 256, 40},
-                                                 {1000, 600, 2048, 10'000},
-                                                 {1000, 600, 65'536, 9},
-                                                 {1000, 1000, 2048, 300},
-                                                 {1000, 1000, 65'536, 8192}}};
+ContactRoom room_for(uint pairs, uint manifolds, bool keeps_old, uint table_size = 0, uint boxes = 0) {
+    return ContactRoom(demand_of(pairs, manifolds, keeps_old, table_size, boxes));
+}
+
+// Pairs, manifolds, words of the table, boxes, words to sort, words of fast bodies.
+constexpr std::array<ContactDemand, 12> k_sizes{{{0, 0, 0, 0, 0, 0},
+                                                 {1, 1, 2, 5, 8, 0},
+                                                 {3, 0, 8, 2, 9, 1},
+                                                 {3, 3, 8, 0, 3, 700},
+                                                 {64, 64, 128, 64, 64, 63},
+                                                 {100, 900, 256, 40, 100, 64},
+                                                 {1000, 600, 2048, 10'000, 1000, 7000},
+                                                 {1000, 600, 65'536, 9, 1000, 0},
+                                                 {1000, 600, 65'536, 9, 1000, 70'000},
+                                                 {1000, 1000, 2048, 300, 5000, 65},
+                                                 {1000, 1000, 2048, 300, 1000, 70'000},
+                                                 {1000, 1000, 65'536, 8192, 0, 700}}};
 
 // ---- places ----
 
 TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_constraints_over_what_is_dead) {
-    for (const ContactDemand& size : k_sizes) {
+    for (ContactDemand size : k_sizes) {
         for (const bool keeps_old : {false, true}) {
-            const ContactRoom first = room_for(size.pairs, size.manifolds, keeps_old, size.table_size, size.boxes);
-            for (const ContactRoom& room : ways_with_few_constraints(first)) {
+            size.keeps_old = keeps_old;
+            for (const ContactRoom& room : ways_with_few_constraints(ContactRoom(size))) {
                 SCOPED_TRACE(testing::Message() << size.pairs << " pairs, " << size.manifolds << " manifolds");
                 const ContactRoom::Place constraints = room.place(BufferId::Constraints);
                 EXPECT_GE(constraints.bytes,
@@ -94,10 +107,28 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                 EXPECT_LE(table.offset + table.bytes, room.bytes());
                 EXPECT_EQ(table.offset % 256, 0u);
                 EXPECT_FALSE(keeps_old && overlap(table, constraints)) << "the end of a step reads both";
+                const ContactRoom::Place fast = room.place(BufferId::FastBodies);
+                EXPECT_GT(fast.bytes, 0u);
+                EXPECT_GE(fast.bytes, size.fast_words * sizeof(uint));
+                EXPECT_LE(fast.offset + fast.bytes, room.bytes());
+                EXPECT_EQ(fast.offset % 256, 0u);
+                EXPECT_FALSE(overlap(fast, constraints)) << "the solve has both";
+                EXPECT_FALSE(keeps_old && overlap(table, fast));
                 const ContactRoom::Place boxes = room.place(BufferId::TreeNodes);
-                for (const BufferId other : engine::k_by_turns)
-                    EXPECT_EQ(room.place(other).offset, boxes.offset);
-                EXPECT_GE(room.place(BufferId::Uncoloured).bytes, size.pairs * sizeof(uint));
+                EXPECT_EQ(room.place(BufferId::SortedAabbs).offset, boxes.offset);
+                const std::array lists{room.place(BufferId::Uncoloured), room.place(BufferId::SwapKeys),
+                                       room.place(BufferId::SwapValues)};
+                for (const ContactRoom::Place list : lists) {
+                    EXPECT_GT(list.bytes, 0u);
+                    EXPECT_EQ(list.offset % 256, 0u);
+                    EXPECT_GE(list.offset, boxes.offset);
+                    EXPECT_LE(list.offset + list.bytes, boxes.offset + boxes.bytes);
+                }
+                EXPECT_GE(lists[0].bytes, size.pairs * sizeof(uint));
+                EXPECT_GE(lists[1].bytes, size.sorted * sizeof(uint));
+                EXPECT_GE(lists[2].bytes, size.sorted * sizeof(uint));
+                for (const auto [one, other] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+                    EXPECT_FALSE(overlap(lists[one], lists[other])) << "the graph has all three";
                 EXPECT_GT(boxes.bytes, 0u);
                 EXPECT_GE(boxes.bytes, size.boxes * sizeof(engine::Aabb));
                 EXPECT_LE(boxes.offset + boxes.bytes, room.bytes());
@@ -110,6 +141,7 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                     EXPECT_GE(place.bytes, size.pairs * engine::bytes_a_pair(id));
                     EXPECT_LE(place.offset + place.bytes, room.bytes());
                     EXPECT_TRUE(room.is_covered(id) || !overlap(place, constraints));
+                    EXPECT_TRUE(room.is_covered(id) || !overlap(place, fast));
                     EXPECT_FALSE(overlap(place, table)) << "it is made while all contacts are there";
                     EXPECT_FALSE(overlap(place, boxes)) << "they are, too";
                     for (const BufferId other : all_contacts())
@@ -153,7 +185,7 @@ TEST(ContactRooms, have_a_few_constraints_beside_the_contacts_of_two_steps) {
             EXPECT_FALSE(room.is_covered(id));
         room.swap();
     }
-    const ContactRoom grown = room.grown({2000, 1200, 65'536, 0, false});
+    const ContactRoom grown = room.grown(demand_of(2000, 1200, false, 65'536));
     EXPECT_TRUE(grown.is_covered(BufferId::Manifolds)) << "as many as had room before have it for sure";
     EXPECT_FALSE(grown.is_covered(BufferId::OldManifolds));
     EXPECT_EQ(room_for(100, 70, true).constraints_beside(), 70u) << "all lie there";
@@ -167,13 +199,29 @@ TEST(ContactRooms, cover_nothing_where_the_old_contacts_are_kept) {
 }
 
 TEST(ContactRooms, need_memory_for_constraints_only_where_these_are_longer_than_the_contacts_below) {
-    constexpr uint pairs = 256 * 32;               // whole numbers of all that places are rounded to
-    constexpr uint least_search = 256 + 4 * pairs; // the list of pairs lies where a search has its boxes
+    constexpr uint pairs = 256 * 32;                     // whole numbers of all that places are rounded to
+    constexpr uint least = 256;                          // of any place
+    constexpr uint least_search = 3 * least + 4 * pairs; // the list of pairs lies where a search has its boxes
     EXPECT_EQ(room_for(pairs, 0, false).bytes(), 2u * 176 * pairs + least_search);
     EXPECT_EQ(room_for(pairs, pairs * 2 / 3, false).bytes(), 2u * 176 * pairs + least_search);
-    EXPECT_EQ(room_for(pairs, pairs, false).bytes(), (176u + 240u) * pairs);
-    EXPECT_EQ(room_for(pairs, pairs, true).bytes(), (2u * 176u + 240u) * pairs + least_search);
-    EXPECT_EQ(room_for(pairs, pairs / 4, true).bytes(), (2u * 176u + 60u) * pairs + least_search);
+    EXPECT_EQ(room_for(pairs, pairs, false).bytes(), (176u + 240u) * pairs + least);
+    EXPECT_EQ(room_for(pairs, pairs, true).bytes(), (2u * 176u + 240u) * pairs + least + least_search);
+    EXPECT_EQ(room_for(pairs, pairs / 4, true).bytes(), (2u * 176u + 60u) * pairs + least + least_search);
+}
+
+TEST(ContactRooms, need_memory_for_what_is_wanted_by_turns_once) {
+    constexpr uint pairs = 256 * 32;
+    ContactDemand demand = demand_of(pairs, pairs / 2, false, 4 * pairs, 2 * pairs);
+    const std::size_t bytes = ContactRoom(demand).bytes();
+    EXPECT_EQ(bytes, (2u * 176 + 16 + 64) * pairs);
+    demand.sorted = 7 * pairs;                                             // with the list as long as the boxes are
+    demand.fast_words = (176 + 16 + 64 - 120) * pairs / sizeof(uint) - 64; // as much as constraints leave
+    EXPECT_EQ(ContactRoom(demand).bytes(), bytes);
+    demand.fast_words += 128;
+    EXPECT_EQ(ContactRoom(demand).bytes(), bytes + 256);
+    demand.fast_words = 0;
+    demand.sorted = 8 * pairs;
+    EXPECT_EQ(ContactRoom(demand).bytes(), bytes + 4 * pairs);
 }
 
 TEST(ContactRooms, need_memory_for_a_search_only_where_it_is_longer_than_what_constraints_need_besides) {
@@ -181,32 +229,32 @@ TEST(ContactRooms, need_memory_for_a_search_only_where_it_is_longer_than_what_co
     const std::size_t bytes = room_for(pairs, pairs, false).bytes();
     EXPECT_EQ(room_for(pairs, pairs, false, 4 * pairs, pairs).bytes(), bytes);
     EXPECT_EQ(room_for(pairs, 0, false, 4 * pairs, pairs).bytes(), (2u * 176 + 16 + 32) * pairs);
-    EXPECT_EQ(room_for(pairs, pairs, true, 4 * pairs, pairs).bytes(), (2u * 176u + 240u + 16u + 32u) * pairs);
+    EXPECT_EQ(room_for(pairs, pairs, true, 4 * pairs, pairs).bytes(), (2u * 176u + 240u + 16u + 32u) * pairs + 256);
     const ContactRoom room = room_for(pairs, pairs, false);
-    EXPECT_TRUE(room.grown({pairs, pairs, 4 * pairs, pairs}).has_places_of(room));
+    EXPECT_TRUE(room.grown(demand_of(pairs, pairs, false, 4 * pairs, pairs)).has_places_of(room));
 }
 
 TEST(ContactRooms, that_grow_have_the_same_parts_alive_and_never_shrink) {
     for (const bool keeps_old : {false, true}) {
         for (const ContactRoom& room : ways(room_for(100, 60, keeps_old))) {
-            EXPECT_TRUE(room.grown({1, 1, 0, 0, false}).has_places_of(room));
-            EXPECT_EQ(room.grown({1, 1, 0, 0, false}).place(BufferId::Constraints).bytes,
+            EXPECT_TRUE(room.grown(demand_of(1, 1)).has_places_of(room));
+            EXPECT_EQ(room.grown(demand_of(1, 1)).place(BufferId::Constraints).bytes,
                       room.place(BufferId::Constraints).bytes);
-            const ContactRoom larger = room.grown({300, 200, 0, 0, false});
+            const ContactRoom larger = room.grown(demand_of(300, 200));
             EXPECT_FALSE(larger.has_places_of(room));
             for (const BufferId id : all_contacts()) {
                 EXPECT_EQ(larger.is_covered(id), room.is_covered(id));
                 EXPECT_GT(larger.place(id).bytes, room.place(id).bytes);
             }
-            EXPECT_EQ(room.grown({1, 1, 0, 0, true}).has_places_of(room), keeps_old);
+            EXPECT_EQ(room.grown(demand_of(1, 1, true)).has_places_of(room), keeps_old);
         }
     }
     // Constraints that get longer over the same contacts.
     const ContactRoom room = room_for(1000, 10, false);
-    EXPECT_TRUE(room.grown({0, 600, 0, 0, false}).has_places_of(room));
-    EXPECT_GT(room.grown({0, 600, 0, 0, false}).place(BufferId::Constraints).bytes,
+    EXPECT_TRUE(room.grown(demand_of(0, 600)).has_places_of(room));
+    EXPECT_GT(room.grown(demand_of(0, 600)).place(BufferId::Constraints).bytes,
               room.place(BufferId::Constraints).bytes);
-    EXPECT_FALSE(room.grown({0, 1000, 0, 0, false}).has_places_of(room));
+    EXPECT_FALSE(room.grown(demand_of(0, 1000)).has_places_of(room));
 }
 
 // ---- content ----
@@ -257,7 +305,7 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
         device->grow(id, 2 * engine::bytes_a_pair(id));
     device->grow(BufferId::Constraints, 32 * sizeof(engine::ContactConstraint));
     write();
-    device->reserve_contacts({10, 32, 4 * 10, 0, false});
+    device->reserve_contacts(demand_of(10, 32, false, 4 * 10));
     check();
     uint pairs = 10;
     for (const bool keeps_old : {false, false, true, true, false}) {
@@ -267,9 +315,9 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
             write();
             check();
             pairs *= 2;
-            device->reserve_contacts({pairs, pairs / 3, 4 * pairs, pairs, keeps_old});
+            device->reserve_contacts(demand_of(pairs, pairs / 3, keeps_old, 4 * pairs, pairs));
             check();
-            device->reserve_contacts({pairs, pairs, 4 * pairs, pairs, keeps_old});
+            device->reserve_contacts(demand_of(pairs, pairs, keeps_old, 4 * pairs, pairs));
             check();
         }
     }
@@ -277,13 +325,13 @@ TEST_P(ContactMemory, keeps_what_is_alive_when_it_grows) {
     EXPECT_GE(device->size(BufferId::ManifoldPoints), std::size_t{4} * 16 * pairs);
 }
 
-TEST_P(ContactMemory, is_kept_when_only_the_table_or_the_boxes_grow) {
+TEST_P(ContactMemory, is_kept_when_only_what_lies_beside_it_grows) {
     if (GetParam() != DeviceKind::Gpu) return; // the others have each buffer by itself
     for (const uint manifolds : {20u, 100u, 300u}) {
         for (const bool keeps_old : {false, true}) {
             for (const int steps : {0, 1}) {
                 const auto device = engine::make_gl_device(GlContext::Own, false);
-                ContactDemand demand{300, manifolds, 600, 150, keeps_old};
+                ContactDemand demand = demand_of(300, manifolds, keeps_old, 600, 150);
                 device->reserve_contacts(demand);
                 for (int i = 0; i < steps; ++i) {
                     device->place_constraints(ConstraintPlace::OverOldContacts);
@@ -295,13 +343,17 @@ TEST_P(ContactMemory, is_kept_when_only_the_table_or_the_boxes_grow) {
                 written[BufferId::Constraints] = pattern(BufferId::Constraints, device->size(BufferId::Constraints));
                 for (const auto& [id, bytes] : written)
                     device->write(id, 0, bytes);
-                for (int i = 0; i < 4; ++i) {
-                    (i % 2 == 0 ? demand.table_size : demand.boxes) *= 5;
+                demand.sorted = demand.fast_words = 200;
+                for (int i = 0; i < 8; ++i) {
+                    const std::array grows{&demand.table_size, &demand.boxes, &demand.sorted, &demand.fast_words};
+                    *grows[i % 4] *= 5;
                     device->reserve_contacts(demand);
                     for (const auto& [id, bytes] : written)
                         expect_kept(*device, id, bytes);
                     EXPECT_GE(device->size(BufferId::PairTable), demand.table_size * sizeof(uint));
                     EXPECT_GE(device->size(BufferId::TreeNodes), demand.boxes * sizeof(engine::Aabb));
+                    EXPECT_GE(device->size(BufferId::SwapValues), demand.sorted * sizeof(uint));
+                    EXPECT_GE(device->size(BufferId::FastBodies), demand.fast_words * sizeof(uint));
                 }
             }
         }
@@ -402,7 +454,7 @@ TEST_P(ContactMemory, may_be_more_than_one_block_of_a_kernel) {
 
 // ---- steps that come to nothing ----
 
-constexpr ContactDemand k_boundless{engine::k_none, engine::k_none, 0, engine::k_none};
+const ContactDemand k_boundless = demand_of(engine::k_none, engine::k_none, false, 0, engine::k_none);
 
 /// A device that has no room, or cannot have a kernel, where a test says so.
 class PoorDevice final : public StandInDevice {

@@ -61,6 +61,7 @@ public:
     void step_persistently(bool in_groups, engine::uint most_groups = engine::k_none, engine::uint least_groups = 1) {
         engine::StepPlan plan = plan_for_any_demand();
         plan.in_groups = in_groups;
+        reserve_fast_bodies(plan);
         const engine::uint groups = simulation.state_device().resident_groups(engine::persistent_solver(plan));
         plan.persistent_groups = std::max(std::min(groups, most_groups), least_groups);
         step_as(plan);
@@ -138,6 +139,13 @@ private:
         plan.least_multirate = least_multirate;
         plan.other_graph = true; // the step before may have been made another way
         return plan;
+    }
+
+    /// The simulation has made room for no more than steps of its own need.
+    void reserve_fast_bodies(const engine::StepPlan& plan) {
+        engine::ContactDemand demand;
+        demand.fast_words = engine::words_of_fast_bodies(plan);
+        simulation.state_device().reserve_contacts(demand);
     }
 
     void step_as(const engine::StepPlan& plan) {

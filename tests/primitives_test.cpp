@@ -126,18 +126,21 @@ Sorted sort(Device& device, const Words& keys, uint capacity, uint bits, uint sl
     const uint count = static_cast<uint>(keys.size());
     Words values(count);
     std::iota(values.begin(), values.end(), 0u);
-    upload(device, BufferId::SortKeys, keys);
-    upload(device, BufferId::SortValues, values);
+    const engine::Sort wanted{.keys = BufferId::SortKeys,
+                              .values = BufferId::SortValues,
+                              .capacity = capacity,
+                              .count_counter = k_count,
+                              .bits = bits,
+                              .slot = slot};
+    // Of another length than the scratch: who reads there reads something else.
+    upload(device, BufferId::SortKeys, Words(capacity + 1, k_untouched));
+    upload(device, BufferId::SortValues, Words(capacity + 1, k_untouched));
+    const auto [unsorted_keys, unsorted_values] = unsorted_place(device, wanted);
+    upload(device, unsorted_keys, keys);
+    upload(device, unsorted_values, values);
     set_counters(device, count);
     if (slot != k_none) set_dispatch(device, slot, divide_up(count, k_sort_tile), count);
-    sort_by_key(device, {.keys = BufferId::SortKeys,
-                         .values = BufferId::SortValues,
-                         .keys_swap = BufferId::SortKeysSwap,
-                         .values_swap = BufferId::SortValuesSwap,
-                         .capacity = capacity,
-                         .count_counter = k_count,
-                         .bits = bits,
-                         .slot = slot});
+    sort_by_key(device, wanted);
     return {download(device, BufferId::SortKeys, count), download(device, BufferId::SortValues, count)};
 }
 

@@ -21,8 +21,6 @@ static constexpr std::initializer_list<Binding> k_marks{{"StrayMarks", BufferId:
 static void sort_bodies(Device& device, uint body_count) {
     sort_by_key(device, {.keys = BufferId::SortKeys,
                          .values = BufferId::SortValues,
-                         .keys_swap = BufferId::SortKeysSwap,
-                         .values_swap = BufferId::SortValuesSwap,
                          .capacity = body_count,
                          .count_counter = k_counter_search_count});
 }

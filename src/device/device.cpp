@@ -9,6 +9,8 @@ namespace talus::engine {
 BufferId Launch::bound(const char* block) const {
     for (const Binding& binding : bindings)
         if (std::strcmp(binding.block, block) == 0) return binding.buffer;
+    for (std::size_t i = 0; i < k_buffers.size(); ++i)
+        if (std::strcmp(k_buffers[i].block, block) == 0) return static_cast<BufferId>(i);
 
     std::string known;
     for (const Binding& binding : bindings)

@@ -49,8 +49,10 @@ inline constexpr std::array k_contact_buffers{BufferId::Manifolds, BufferId::Man
 inline constexpr std::array k_old_contact_buffers{BufferId::OldManifolds, BufferId::OldManifoldPoints,
                                                   BufferId::OldPointSeparations, BufferId::OldPointImpulses};
 
-/// What a step makes one after the other before it has constraints, so that it may all lie at one place.
-inline constexpr std::array k_by_turns{BufferId::TreeNodes, BufferId::SortedAabbs, BufferId::Uncoloured};
+/// What a step makes one after the other before it has constraints, so that it may all lie at one place: boxes in the
+/// order of a search, or a list and what sorts need besides.
+inline constexpr std::array k_by_turns{BufferId::TreeNodes, BufferId::SortedAabbs, BufferId::Uncoloured,
+                                       BufferId::SwapKeys, BufferId::SwapValues};
 
 /// Of one of the contacts' buffers.
 constexpr std::size_t bytes_a_pair(BufferId id) {
@@ -64,13 +66,16 @@ struct ContactDemand {
     uint manifolds = 0;
     uint table_size = 0;    ///< words of PairTable
     uint boxes = 0;         ///< records of TreeNodes, or of SortedAabbs
+    uint sorted = 0;        ///< words of SwapKeys, and of SwapValues
+    uint fast_words = 0;    ///< words of FastBodies
     bool keeps_old = false; ///< Constraints never lie over the old contacts, as the end of a step reads them
 };
 
 /// Where constraints are to lie in the room of contacts.
 enum class ConstraintPlace : std::uint8_t { OverOldContacts, OverNewContacts, BesideContacts };
 
-/// A parameterised kernel's block and the buffer that it stands for in this launch (primitives have such blocks).
+/// A kernel's block and the buffer that it stands for in this launch. Without one it stands for the buffer of its name,
+/// if there is such a one: primitives have blocks without.
 struct Binding {
     const char* block;
     BufferId buffer;
@@ -98,7 +103,7 @@ struct Launch {
     /// The next launch touches nothing that this one writes, and may run beside it.
     bool overlaps_next = false;
 
-    BufferId bound(const char* block) const; ///< for twins: the buffer behind a parameterised block
+    BufferId bound(const char* block) const; ///< for twins: the buffer behind a block that may be bound to others
 };
 
 /// One step on its way. Tickets count up from 0 for each device.
@@ -136,13 +141,14 @@ public:
     virtual void read(std::span<const ReadRequest>) = 0;
     virtual void swap(BufferId, BufferId) = 0;
 
-    /// Gives the buffers of contacts, Constraints, PairTable, Uncoloured, TreeNodes and SortedAabbs at least that room,
-    /// where a device has one room for all of them; elsewhere the last two wait for grow(). From then on they grow and
-    /// are swapped together, and Constraints may lie over contacts that nobody wants any more: over the old ones from
-    /// place_constraints on, and so over the new ones from swap_contacts on, until kernels write these. The last four
-    /// may lie over Constraints, so that each is there until kernels write the other, and the last three over each
-    /// other. Constraints and contacts that they do not lie over keep their content. Old contacts are kept for good
-    /// once they are. Not while a step is on its way that may be done again.
+    /// Gives the buffers of contacts, Constraints, FastBodies, PairTable, and those of k_by_turns at least that room,
+    /// where a device has one room for all of them; elsewhere FastBodies and those of k_by_turns but Uncoloured wait
+    /// for grow(). From then on they grow and are swapped together, and Constraints, with FastBodies behind, may lie
+    /// over contacts that nobody wants any more: over the old ones from place_constraints on, and so over the new ones
+    /// from swap_contacts on, until kernels write these. PairTable and those of k_by_turns may lie over Constraints, so
+    /// that each is there until kernels write the other, and TreeNodes and SortedAabbs over the others of k_by_turns.
+    /// Constraints and contacts that they do not lie over keep their content. Old contacts are kept for good once they
+    /// are. Not while a step is on its way that may be done again.
     virtual void reserve_contacts(const ContactDemand&);
     /// Kernels that are given from here on write Constraints. Where these lie over the old contacts, those that read
     /// them need keeps_old. Beside contacts there is room for constraints_beside() of them at most.

@@ -2,6 +2,8 @@
 // What the host launches for a scan and for a sort.
 #include "primitives/primitives.h"
 
+#include <utility>
+
 #include "primitives/kernels.h"
 
 namespace talus::engine {
@@ -9,7 +11,7 @@ namespace {
 
 static_assert(k_scan_tile == k_scan_group * k_scan_run);
 static_assert(k_digits == 1u << k_digit_bits);
-static_assert(32 / k_digit_bits % 2 == 0, "a sort of nothing by whole words has to leave the buffers as they were");
+static_assert(32 / k_digit_bits % 2 == 0, "whole words are sorted where they are");
 static_assert(k_sort_group == k_digits && k_sort_group == 32 * k_mask_words && k_sort_tile % k_sort_group == 0);
 
 // Up to here one group is done before two dependent dispatches would be.
@@ -42,20 +44,23 @@ bool takes_one_group(const Sort& sort) {
     return sort.capacity <= k_sort_in_group_keys;
 }
 
-// A swap hands the scratch buffers to the caller, so they must be as large as what they are swapped for.
-void reserve_scratch(Device& device, const Sort& sort) {
-    reserve_words(device, sort.keys_swap, device.size(sort.keys) / sizeof(uint));
-    reserve_words(device, sort.values_swap, device.size(sort.values) / sizeof(uint));
+SortPlace sorted_place(const Sort& sort) {
+    return {sort.keys, sort.values};
 }
 
-void swap_buffers(Device& device, const Sort& sort) {
-    device.swap(sort.keys, sort.keys_swap);
-    device.swap(sort.values, sort.values_swap);
+SortPlace scratch_place(Device& device, const Sort& sort) {
+    reserve_words(device, BufferId::SwapKeys, sort.capacity);
+    reserve_words(device, BufferId::SwapValues, sort.capacity);
+    return {BufferId::SwapKeys, BufferId::SwapValues};
+}
+
+bool begins_in_scratch(const Sort& sort) {
+    return !takes_one_group(sort) && divide_up(sort.bits, k_digit_bits) % 2 == 1;
 }
 
 /// A pass for every digit, from the lowest up, each stable.
 void sort_digit_by_digit(Device& device, const Sort& sort) {
-    reserve_scratch(device, sort);
+    SortPlace from = unsorted_place(device, sort), to = spare_place(device, sort);
     reserve_words(device, BufferId::DigitCounts, scan_count(sort.capacity, k_sort_tile, k_digits));
 
     const uint adds_up = divide_up(sort.capacity, k_sort_tile) <= k_most_added_tiles ? 1 : 0;
@@ -65,18 +70,18 @@ void sort_digit_by_digit(Device& device, const Sort& sort) {
                     .items = sort.capacity,
                     .slot = sort.slot,
                     .args = args,
-                    .bindings = {{"Keys", sort.keys}}});
+                    .bindings = {{"Keys", from.keys}}});
         if (adds_up == 0)
             scan(device, BufferId::DigitCounts, sort.capacity, sort.count_counter, k_none, k_sort_tile, k_digits);
         device.run({.kernel = scatter_keys,
                     .items = sort.capacity,
                     .slot = sort.slot,
                     .args = args,
-                    .bindings = {{"Keys", sort.keys},
-                                 {"Values", sort.values},
-                                 {"SortedKeys", sort.keys_swap},
-                                 {"SortedValues", sort.values_swap}}});
-        swap_buffers(device, sort);
+                    .bindings = {{"Keys", from.keys},
+                                 {"Values", from.values},
+                                 {"SortedKeys", to.keys},
+                                 {"SortedValues", to.values}}});
+        std::swap(from, to);
     }
 }
 
@@ -87,11 +92,12 @@ void exclusive_scan(Device& device, BufferId values, uint capacity, uint count_c
     scan(device, values, capacity, count_counter, total_counter, group_size, 1);
 }
 
-void begin_sort(Device& device, const Sort& sort) {
-    const uint passes = takes_one_group(sort) ? 0 : divide_up(sort.bits, k_digit_bits);
-    if (passes % 2 == 0) return;
-    reserve_scratch(device, sort);
-    swap_buffers(device, sort);
+SortPlace unsorted_place(Device& device, const Sort& sort) {
+    return begins_in_scratch(sort) ? scratch_place(device, sort) : sorted_place(sort);
+}
+
+SortPlace spare_place(Device& device, const Sort& sort) {
+    return begins_in_scratch(sort) ? sorted_place(sort) : scratch_place(device, sort);
 }
 
 void sort_by_key(Device& device, const Sort& sort) {

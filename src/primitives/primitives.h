@@ -4,7 +4,7 @@
 // are.
 //
 // `capacity` is what the host knows: the count is never more. It decides how much is launched, so it may be generous,
-// and the scratch buffers ScanSums and DigitCounts are grown to it.
+// and the scratch buffers ScanSums, DigitCounts, SwapKeys and SwapValues are grown to it.
 #pragma once
 
 #include "device/device.h"
@@ -17,12 +17,10 @@ namespace talus::engine {
 void exclusive_scan(Device&, BufferId values, uint capacity, uint count_counter, uint total_counter,
                     uint group_size = 1);
 
-/// What a sort works on.
+/// What a sort works on, besides SwapKeys and SwapValues.
 struct Sort {
     BufferId keys;
     BufferId values;      ///< move with their keys
-    BufferId keys_swap;   ///< scratch
-    BufferId values_swap; ///< scratch
     uint capacity;        ///< keys
     uint count_counter;   ///< word of Counters with the number of keys
     uint bits = 32;       ///< keys are below 2^bits
@@ -30,15 +28,20 @@ struct Sort {
     uint slot = k_none;
 };
 
-/// Call it before the kernels that write the keys, where these may turn out to be none and the last result is to stay
-/// then: the sorted keys will be where those of the last such sort are. With an odd number of passes buffers change
-/// places here and in sort_by_key(), so what is to be sorted does not lie there; with an even number it does, and is
-/// written only where there is any.
-void begin_sort(Device&, const Sort&);
+/// Keys and their values.
+struct SortPlace {
+    BufferId keys;
+    BufferId values;
+};
+
+/// Where to write what is to be sorted, so that the result comes to lie at `keys` and `values`. With an even number of
+/// passes it is there, with an odd number in SwapKeys and SwapValues, which get their room here.
+SortPlace unsorted_place(Device&, const Sort&);
+/// The other of the two, of which nothing is wanted until then, unless nothing is sorted and the last result is to stay.
+SortPlace spare_place(Device&, const Sort&);
 
 /// Sorts by key, lowest first; equal keys keep their order. A capacity of up to k_sort_in_group_keys (2,048) takes a
-/// single dispatch. A larger one takes a pass for every 8 bits; where the number of passes is odd, `keys` and `values`
-/// change places with the two scratch buffers (Device::swap).
+/// single dispatch, a larger one a pass for every 8 bits.
 void sort_by_key(Device&, const Sort&);
 
 /// Puts the first `count` records of Changes (see the kernel scatter_records) to their places in a buffer of records,

@@ -13,6 +13,7 @@ namespace talus::engine {
 
 static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
     if (state.counters[k_counter_graph_bodies] == 0) return;
+    const Array<uint> manifold_keys = state.words(launch.bound("ManifoldKeys"));
     struct Edge {
         uint rank;
         uint pair;
@@ -46,7 +47,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
     std::ranges::sort(edges, std::greater{}, &Edge::rank);
     for (const Edge& edge : edges) {
         const std::array bodies{state.manifolds[edge.pair].body_a, state.manifolds[edge.pair].body_b};
-        const uint load = std::ranges::all_of(bodies, makes_hub) ? 0 : state.manifold_keys[edge.pair];
+        const uint load = std::ranges::all_of(bodies, makes_hub) ? 0 : manifold_keys[edge.pair];
         for (const uint body : bodies) {
             if (!makes_hub(body)) continue;
             if (word_of(body, k_hub_word) == 0) {
@@ -77,7 +78,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
         const uint hub = hub_of(state.manifolds[edge.pair]);
         if (hub_count_of(state.manifolds[edge.pair]) == 1)
             word_of(hub, k_whole_load) +=
-                part_of_load(state, edge.pair, uintBitsToFloat(state.manifold_keys[edge.pair]), hub);
+                part_of_load(state, edge.pair, uintBitsToFloat(manifold_keys[edge.pair]), hub);
     }
 
     const auto give_colour = [&](const Edge& edge) {
@@ -87,7 +88,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
         const auto hub_count = hub_count_of(manifold);
         const uint hub = hub_of(manifold),
                    part = hub_count == 1
-                              ? part_of_load(state, edge.pair, uintBitsToFloat(state.manifold_keys[edge.pair]), hub)
+                              ? part_of_load(state, edge.pair, uintBitsToFloat(manifold_keys[edge.pair]), hub)
                               : 0;
         uint usable = hub_count == 0 ? state.parameters.usable_colours : 0;
         if (hub_count == 1) usable = colours_of_hubs_edge(state, manifold, part, hub, both_movable);
@@ -101,7 +102,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
         uint colour = first_free_colour(low, high, usable, both_movable);
         if (hub_count == 1 && colour == k_overflow_colour) colour = first_free_hub_colour(high_of_other);
         const bool is_shared = is_hub_colour(colour);
-        state.manifold_keys[edge.pair] = colour;
+        manifold_keys[edge.pair] = colour;
         for (const uint body : bodies) {
             if (!is_shared && of_hub(body)) ++word_of(body, k_hub_word);
             const bool obstructs = movable(body) && !(is_shared && of_hub(body));
@@ -118,7 +119,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
     const auto demand_of_edges = [&] {
         uint most = 0;
         for (const Edge& edge : edges) {
-            const uint colour = state.manifold_keys[edge.pair];
+            const uint colour = manifold_keys[edge.pair];
             if (colour < k_first_hub_colour) most = max(most, colours_down_to(colour));
         }
         return most;
@@ -127,7 +128,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
         std::vector<Edge> again;
         for (const Edge& edge : edges) {
             const Manifold& manifold = state.manifolds[edge.pair];
-            const uint colour = state.manifold_keys[edge.pair];
+            const uint colour = manifold_keys[edge.pair];
             if (colour >= k_first_hub_colour) continue;
             const bool both_movable = movable(manifold.body_a) && movable(manifold.body_b);
             again.push_back({by_class ? class_rank(colour, both_movable) : edge.rank, edge.pair});

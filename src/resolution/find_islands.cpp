@@ -16,6 +16,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
     const uint body_count = state.counters[k_counter_graph_bodies];
     const uint pair_count = state.counters[k_counter_graph_pairs];
     if (body_count == 0) return;
+    const Array<uint> manifold_keys = state.words(launch.bound("ManifoldKeys"));
     std::vector<uint> roots(body_count);
     std::iota(roots.begin(), roots.end(), 0u);
 
@@ -51,7 +52,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
     }
     std::vector<uint> manifold_counts(body_count, 0);
     for (uint pair = 0; pair < pair_count; ++pair) {
-        uint colour = state.manifold_keys[pair];
+        uint colour = manifold_keys[pair];
         uint island = k_island_bodies; // after all others
         if (colour != k_inactive_colour) {
             Manifold& manifold = state.manifolds[pair];
@@ -66,7 +67,7 @@ static void find_islands_on_cpu(CpuState& state, const Launch& launch) {
                 colour = k_inactive_colour;
             }
         }
-        state.manifold_keys[pair] = launch.args[1] == 1 ? manifold_key(island, colour) : colour;
+        manifold_keys[pair] = launch.args[1] == 1 ? manifold_key(island, colour) : colour;
     }
     for (uint body = 0; body < body_count; ++body) // an island's lowest slot comes first, and has its number
         state.substeps[body] = state.islands[body] == k_none ? 0 : state.substeps[state.islands[body]];

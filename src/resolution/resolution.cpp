@@ -33,40 +33,39 @@ static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel
 
 /// Who sleeps, for which islands are found of all that contacts can push; and which pairs the graph is made of then:
 /// those of what is awake, and those of sleepers that something awake touches.
-static void choose_who_sleeps(Device& device, const StepPlan& plan) {
+static void choose_who_sleeps(Device& device, const StepPlan& plan, SortPlace unsorted, SortPlace spare) {
     device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {k_join_to_sleep}});
     device.run({.kernel = measure_islands, .items = plan.body_count, .args = {1}});
     device.run(
         {.kernel = choose_sleepers, .items = plan.body_count, .args = {plan.least_multirate, plan.may_be_multirate()}});
     device.run({.kernel = begin_awake, .items = plan.body_count});
     device.run({.kernel = press_sleepers, .slot = k_dispatch_graph_pairs});
-    constexpr BufferId counts = BufferId::SortedManifoldKeys,
-                       bits = BufferId::SortedManifoldOrder; // nothing lies there yet
+    const BufferId counts = spare.keys, bits = spare.values; // nothing lies there yet
     const std::size_t groups = (plan.pair_capacity + k_count_group - 1) / k_count_group;
-    device.grow(counts, device.size(BufferId::ManifoldKeys));
-    device.grow(bits, std::max(device.size(BufferId::ManifoldOrder), k_mark_words * groups * sizeof(uint)));
-    const std::initializer_list<Binding> marks{{"MarkCounts", counts}, {"Marks", bits}};
+    device.grow(bits, k_mark_words * groups * sizeof(uint));
+    const std::initializer_list<Binding> marks{
+        {"MarkCounts", counts}, {"Marks", bits}, {"ManifoldOrder", unsorted.values}};
     device.run({.kernel = mark_awake_pairs, .slot = k_dispatch_graph_counts, .bindings = marks});
     exclusive_scan(device, counts, plan.pair_capacity, k_counter_graph_pairs, k_counter_listed_pairs, k_count_group);
     device.run({.kernel = list_awake_pairs, .items = (plan.pair_capacity + 31) / 32, .bindings = marks});
 }
 
-/// The islands of a large world, and which of them a work group solves.
-static void find_island_groups(Device& device, const StepPlan& plan) {
+/// The islands of a large world, and which of them a work group solves. `colours`: of pairs.
+static void find_island_groups(Device& device, const StepPlan& plan, SortPlace unsorted, BufferId colours) {
     const uint joined = plan.sleeps_in_parts() ? k_join_awake : k_join_all;
-    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {joined}});
+    device.run({.kernel = join_islands,
+                .slot = k_dispatch_graph_pairs,
+                .args = {joined},
+                .bindings = {{"ManifoldOrder", unsorted.values}}});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_graph_bodies, k_none);
     device.run({.kernel = group_islands,
                 .items = plan.body_count,
                 .args = {plan.has_groups(), plan.singles, plan.multirate_from(), plan.sleeps_in_parts()}});
-    // Of listed pairs the colours lie at the pairs, and the keys in the order of the list.
-    const BufferId keys = plan.sleeps_in_parts() ? BufferId::SortedManifoldKeys : BufferId::ManifoldKeys;
     device.run({.kernel = key_manifolds,
                 .slot = k_dispatch_graph_pairs,
                 .args = {plan.sleeps_in_parts()},
-                .bindings = {{"Keys", keys}}});
-    if (plan.sleeps_in_parts()) device.swap(keys, BufferId::ManifoldKeys);
+                .bindings = {{"Keys", unsorted.keys}, {"ManifoldKeys", colours}, {"ManifoldOrder", unsorted.values}}});
 }
 
 void wake(Device& device, const StepPlan& plan) {
@@ -79,26 +78,35 @@ void wake(Device& device, const StepPlan& plan) {
 static void make_graph(Device& device, const StepPlan& plan) {
     const Sort order{.keys = BufferId::ManifoldKeys,
                      .values = BufferId::ManifoldOrder,
-                     .keys_swap = BufferId::SortedManifoldKeys,
-                     .values_swap = BufferId::SortedManifoldOrder,
                      .capacity = plan.pair_capacity,
                      .count_counter = k_counter_graph_pairs,
                      .bits = manifold_key_bits(plan),
                      .slot = k_dispatch_graph_tiles};
-    begin_sort(device, order);
+    const SortPlace unsorted = unsorted_place(device, order);
+    // Of listed pairs the colours lie at the pairs, and the keys in the order of the list.
+    const SortPlace spare = plan.sleeps_in_parts() ? spare_place(device, order) : unsorted;
+    const BufferId colours = spare.keys;
     const bool measures_islands = plan.measures_islands();
     device.run({.kernel = begin_graph,
                 .items = std::max(plan.body_count, 1u),
                 .args = {measures_islands, plan.sleeps_in_parts()}});
-    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan);
-    device.run({.kernel = keep_colours, .slot = k_dispatch_graph_counts, .args = {plan.sleeps_in_parts()}});
+    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan, unsorted, spare);
+    device.run({.kernel = keep_colours,
+                .slot = k_dispatch_graph_counts,
+                .args = {plan.sleeps_in_parts()},
+                .bindings = {{"ManifoldKeys", colours}, {"ManifoldOrder", unsorted.values}}});
     // Colours and islands are found beside each other.
     device.run({.kernel = assign_colours,
                 .items = plan.colouring_groups,
                 .args = {0, plan.sleeps_in_parts()},
+                .bindings = {{"ManifoldKeys", colours}},
                 .overlaps_next = measures_islands});
-    if (plan.small) device.run({.kernel = find_islands, .items = 1, .args = {plan.one_island, plan.in_groups}});
-    if (measures_islands) find_island_groups(device, plan);
+    if (plan.small)
+        device.run({.kernel = find_islands,
+                    .items = 1,
+                    .args = {plan.one_island, plan.in_groups},
+                    .bindings = {{"ManifoldKeys", unsorted.keys}}});
+    if (measures_islands) find_island_groups(device, plan, unsorted, colours);
     sort_by_key(device, order);
 }
 
@@ -117,16 +125,20 @@ std::size_t records_with_hits(uint bodies, uint manifolds) {
     return std::size_t{contact_hits_place(manifolds, bodies)} + 1;
 }
 
-/// What only some worlds need for the solve: room for what hits have to know of bodies and contacts, behind the warm
-/// starts, where a simulation has not made it; and for what bodies of a multirate island have to know in the persistent
+uint words_of_fast_bodies(const StepPlan& plan) {
+    if (!plan.may_be_multirate()) return 0;
+    return fast_body_words(plan.fewest_substeps(), plan.most_substeps) * plan.body_count;
+}
+
+/// What only some worlds need for the solve, where a simulation has not made room for it: what hits have to know of
+/// bodies and contacts, behind the warm starts; and what bodies of a multirate island have to know in the persistent
 /// launch.
 static void reserve_for_solve(Device& device, const StepPlan& plan) {
     if (plan.bounces)
         device.grow(BufferId::WarmStarts,
                     records_with_hits(plan.body_count, plan.manifold_capacity) * sizeof(BodyWarmStart));
-    if (plan.persistent_groups == 0 || !plan.needs_launches() || !plan.may_be_multirate()) return;
-    const uint words = fast_body_words(plan.fewest_substeps(), plan.most_substeps);
-    device.grow(BufferId::FastBodies, sizeof(uint) * words * plan.body_count);
+    if (plan.persistent_groups > 0 && plan.needs_launches())
+        device.grow(BufferId::FastBodies, words_of_fast_bodies(plan) * sizeof(uint));
 }
 
 void prepare(Device& device, const StepPlan& plan) {

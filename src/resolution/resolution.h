@@ -23,6 +23,8 @@ void store_impulses(Device&, const StepPlan&);
 /// Room for what hits have to know of bodies and contacts: records of WarmStarts, behind those of all bodies, that
 /// these included.
 std::size_t records_with_hits(uint bodies, uint manifolds);
+/// Room for what bodies of multirate islands have to know in the persistent launch: words of FastBodies.
+uint words_of_fast_bodies(const StepPlan&);
 /// The kernel that makes all passes in one launch.
 const Kernel& persistent_solver(const StepPlan&);
 /// The kernel whose work groups solve islands: each of a small world, or the little ones of a large world.

@@ -35,8 +35,8 @@ namespace talus::engine {
     X(SweepAxes, sweep_axes, SweepAxis, "ufuu", Result)                                                                \
     X(SortKeys, sort_keys, uint, "u", Result)                                                                          \
     X(SortValues, sort_values, uint, "u", Result)                                                                      \
-    X(SortKeysSwap, sort_keys_swap, uint, "u", Scratch)                                                                \
-    X(SortValuesSwap, sort_values_swap, uint, "u", Scratch)                                                            \
+    X(SwapKeys, swap_keys, uint, "u", Scratch)                                                                         \
+    X(SwapValues, swap_values, uint, "u", Scratch)                                                                     \
     X(DigitCounts, digit_counts, uint, "u", Scratch)                                                                   \
     X(SortedAabbs, sorted_aabbs, Aabb, "fffffffu", Result)                                                             \
     X(TreeGrids, tree_grids, TreeGrid, "fffffuuu", Result)                                                             \
@@ -71,8 +71,6 @@ namespace talus::engine {
     X(Uncoloured, uncoloured, uint, "u", Scratch)                                                                      \
     X(ManifoldKeys, manifold_keys, uint, "u", Result)                                                                  \
     X(ManifoldOrder, manifold_order, uint, "u", Result)                                                                \
-    X(SortedManifoldKeys, sorted_manifold_keys, uint, "u", Scratch)                                                    \
-    X(SortedManifoldOrder, sorted_manifold_order, uint, "u", Scratch)                                                  \
     X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
     X(LaunchedBodies, launched_bodies, uint, "u", Scratch)                                                             \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \

@@ -34,24 +34,28 @@ void ContactRoom::fit(const ContactDemand& demand) {
     demand_.manifolds = std::max({demand.manifolds, demand_.manifolds, 1u});
     demand_.table_size = std::max({demand.table_size, demand_.table_size, 1u});
     demand_.boxes = std::max({demand.boxes, demand_.boxes, 1u});
+    demand_.sorted = std::max({demand.sorted, demand_.sorted, 1u});
+    demand_.fast_words = std::max({demand.fast_words, demand_.fast_words, 1u});
     demand_.keeps_old = demand.keeps_old || demand_.keeps_old;
     arrays_bytes_ = 0;
     for (const BufferId buffer : k_contact_buffers)
         arrays_bytes_ += aligned(demand_.pairs * bytes_a_pair(buffer));
     const std::size_t blocks = (demand_.manifolds + k_block_records - 1) / k_block_records;
     constraint_bytes_ = blocks * k_block_bytes;
+    fast_bytes_ = aligned(demand_.fast_words * element_bytes(BufferId::FastBodies));
     table_bytes_ = aligned(demand_.table_size * element_bytes(BufferId::PairTable));
-    turns_bytes_ = aligned(std::max(demand_.boxes * element_bytes(BufferId::TreeNodes),
-                                    demand_.pairs * element_bytes(BufferId::Uncoloured)));
+    list_bytes_ = aligned(demand_.pairs * element_bytes(BufferId::Uncoloured));
+    swap_bytes_ = aligned(demand_.sorted * element_bytes(BufferId::SwapKeys));
+    turns_bytes_ = std::max(aligned(demand_.boxes * element_bytes(BufferId::TreeNodes)), list_bytes_ + 2 * swap_bytes_);
 }
 
 std::size_t ContactRoom::gap_bytes() const {
     if (demand_.keeps_old) return 0;
-    return std::max(std::max(constraint_bytes_, arrays_bytes_) - arrays_bytes_, bytes_before());
+    return std::max(std::max(solver_bytes(), arrays_bytes_) - arrays_bytes_, bytes_before());
 }
 
 std::size_t ContactRoom::bytes() const {
-    return 2 * arrays_bytes_ + (demand_.keeps_old ? constraint_bytes_ + bytes_before() : gap_bytes());
+    return 2 * arrays_bytes_ + (demand_.keeps_old ? solver_bytes() + bytes_before() : gap_bytes());
 }
 
 ContactRoom::Place ContactRoom::place(BufferId id) const {
@@ -59,13 +63,17 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
     if (id == BufferId::Constraints) {
         if (demand_.keeps_old) return {behind, constraint_bytes_};
         if (constraints_ == ConstraintPlace::BesideContacts)
-            return {arrays_bytes_, gap_bytes() / k_block_bytes * k_block_bytes};
+            return {arrays_bytes_, constraints_beside() / k_block_records * k_block_bytes};
         const bool over_start = (constraints_ == ConstraintPlace::OverOldContacts) == starts_with_old_;
         return {over_start ? 0 : arrays_bytes_, constraint_bytes_};
     }
-    const std::size_t table_begin = demand_.keeps_old ? behind + constraint_bytes_ : arrays_bytes_;
+    if (id == BufferId::FastBodies) {
+        const Place constraints = place(BufferId::Constraints);
+        return {constraints.offset + constraints.bytes, fast_bytes_};
+    }
+    const std::size_t table_begin = demand_.keeps_old ? behind + solver_bytes() : arrays_bytes_;
     if (id == BufferId::PairTable) return {table_begin, table_bytes_};
-    if (is_one_of(k_by_turns, id)) return {table_begin + table_bytes_, turns_bytes_};
+    if (is_one_of(k_by_turns, id)) return place_by_turns(id, table_begin + table_bytes_);
     const bool is_old = is_one_of(k_old_contact_buffers, id);
     Place place{is_old == starts_with_old_ ? 0 : arrays_bytes_ + gap_bytes(), 0};
     for (const BufferId buffer : is_old ? k_old_contact_buffers : k_contact_buffers) {
@@ -77,8 +85,15 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
     return {};
 }
 
+ContactRoom::Place ContactRoom::place_by_turns(BufferId id, std::size_t begin) const {
+    if (id == BufferId::Uncoloured) return {begin, list_bytes_};
+    if (id == BufferId::SwapKeys) return {begin + list_bytes_, swap_bytes_};
+    if (id == BufferId::SwapValues) return {begin + list_bytes_ + swap_bytes_, swap_bytes_};
+    return {begin, turns_bytes_};
+}
+
 bool ContactRoom::is_covered(BufferId id) const {
-    if (id == BufferId::PairTable || is_one_of(k_by_turns, id)) return true;
+    if (id == BufferId::FastBodies || id == BufferId::PairTable || is_one_of(k_by_turns, id)) return true;
     if (demand_.keeps_old || constraints_ == ConstraintPlace::BesideContacts) return false;
     const bool over_old = constraints_ == ConstraintPlace::OverOldContacts;
     return is_one_of(over_old ? k_old_contact_buffers : k_contact_buffers, id);
@@ -86,7 +101,8 @@ bool ContactRoom::is_covered(BufferId id) const {
 
 uint ContactRoom::constraints_beside() const {
     if (demand_.keeps_old) return demand_.manifolds;
-    return static_cast<uint>(gap_bytes() / k_block_bytes * k_block_records);
+    const std::size_t bytes = std::max(gap_bytes(), fast_bytes_) - fast_bytes_;
+    return static_cast<uint>(bytes / k_block_bytes * k_block_records);
 }
 
 ContactRoom ContactRoom::grown(const ContactDemand& demand) const {

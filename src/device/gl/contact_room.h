@@ -5,13 +5,14 @@
 //     [ four arrays ][ gap, where the constraints are longer, or PairTable and by turns others ][ four arrays ]
 //
 // In the gap lie PairTable and behind it, by turns, the boxes that a search has put in order, as TreeNodes or as
-// SortedAabbs, and then what steps list, as Uncoloured. It is as long as these at least: constraints are not wanted any
-// more when the broad phase begins to use them, and they are not when constraints are made. The arrays at the start are
-// the new contacts and those at the end the old ones, or the other way round: swap makes the new ones old. The
-// constraints lie over the one or the other, and over the gap: in a step over the old contacts from where they are
-// placed on, and over the new ones from its end until the next search. A step that has few of them may place them into
-// the gap alone. Where the end of a step needs the old contacts, and the table, there is no gap, and the constraints,
-// the table and what is behind it lie behind all of these.
+// SortedAabbs, and then what steps list, as Uncoloured, and what sorts need besides their keys and values. It is as
+// long as these at least: constraints are not wanted any more when the broad phase begins to use them, and they are not
+// when constraints are made. Behind the constraints lie FastBodies, which are wanted while these are solved. The arrays
+// at the start are the new contacts and those at the end the old ones, or the other way round: swap makes the new ones
+// old. The constraints lie over the one or the other, and over the gap: in a step over the old contacts from where they
+// are placed on, and over the new ones from its end until the next search. A step that has few of them may place them
+// into the gap alone. Where the end of a step needs the old contacts, and the table, there is no gap, and the
+// constraints, the table and what is behind it lie behind all of these.
 //
 // This only reckons; see GlDevice for the buffer.
 #pragma once
@@ -22,13 +23,13 @@ namespace talus::engine {
 
 /// What lies in it.
 inline constexpr auto k_room_buffers = [] {
-    std::array<BufferId, 2 * k_contact_buffers.size() + 2 + k_by_turns.size()> all{};
+    std::array<BufferId, 2 * k_contact_buffers.size() + 3 + k_by_turns.size()> all{};
     for (std::size_t i = 0; i < k_contact_buffers.size(); ++i) {
         all[2 * i] = k_contact_buffers[i];
         all[2 * i + 1] = k_old_contact_buffers[i];
     }
     std::size_t next = 2 * k_contact_buffers.size();
-    for (const BufferId other : {BufferId::Constraints, BufferId::PairTable})
+    for (const BufferId other : {BufferId::Constraints, BufferId::FastBodies, BufferId::PairTable})
         all[next++] = other;
     for (const BufferId other : k_by_turns)
         all[next++] = other;
@@ -67,11 +68,18 @@ private:
     /// Of all that is wanted before the constraints.
     std::size_t bytes_before() const { return table_bytes_ + turns_bytes_; }
     std::size_t gap_bytes() const;
+    /// Of the constraints and what lies behind them.
+    std::size_t solver_bytes() const { return constraint_bytes_ + fast_bytes_; }
+    /// What begins there by turns.
+    Place place_by_turns(BufferId, std::size_t begin) const;
 
     ContactDemand demand_;         // the most so far, of each
     std::size_t arrays_bytes_ = 0; // of the new contacts, or of the old ones
     std::size_t constraint_bytes_ = 0;
+    std::size_t fast_bytes_ = 0;
     std::size_t table_bytes_ = 0;
+    std::size_t list_bytes_ = 0;  // of Uncoloured
+    std::size_t swap_bytes_ = 0;  // of SwapKeys, and of SwapValues
     std::size_t turns_bytes_ = 0; // of what lies there by turns
 
     bool starts_with_old_ = true;

@@ -142,10 +142,9 @@ void GlProgram::find_parameters() {
 }
 
 BufferId GlProgram::buffer(const StorageBlock& block, const Launch& launch) const {
-    if (block.buffer) return *block.buffer;
-    for (const Binding& binding : launch.bindings) {
+    for (const Binding& binding : launch.bindings)
         if (block.name == binding.block) return binding.buffer;
-    }
+    if (block.buffer) return *block.buffer;
     throw Error("kernel " + path_ + ": its block " + block.name +
                 " is neither a buffer of src/state/buffers.h nor among the bindings of the launch");
 }

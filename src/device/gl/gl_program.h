@@ -19,7 +19,7 @@ namespace talus::engine {
 /// A storage block of a kernel; its place in GlProgram::blocks is its binding point.
 struct StorageBlock {
     std::string name;
-    std::optional<BufferId> buffer; ///< Nothing for a parameterised block: each launch says which buffer it stands for.
+    std::optional<BufferId> buffer; ///< The one of its name; nothing: each launch says which one it stands for.
     bool written = true;
 };
 
