@@ -80,6 +80,7 @@ void take_stamps_away(uint body)
 //
 // Most ticks may be such that few have a sub-step. To come by all others takes as long as a pass over them. Contacts that have one come
 // first in each colour; bodies that may have one are listed before the first pass of a step, in any order, as anybody may move them.
+// The slowest of these are by far the most, and have a sub-step in few of these ticks: they are listed from the end.
 
 // A body slot's words: the colours of its fast contacts, two words for each power (see below); then one of the list of bodies.
 layout(std430) coherent buffer FastBodies { uint fast_bodies[]; };
@@ -87,7 +88,30 @@ layout(std430) coherent buffer FastBodies { uint fast_bodies[]; };
 uint words_of_body() { return fast_body_words(parameters.fewest_substeps, parameters.most_substeps); }
 uint list_word(uint place) { return words_of_body() * place + words_of_body() - 1u; }
 
-void list_fast_body(uint body) { fast_bodies[list_word(atomicAdd(arrivals[k_all_fast_bodies], 1u))] = body; }
+uint word_from_end(uint place) { return list_word(parameters.body_count - 1u - place); }
+
+uint ticks_power(uint tick) { return uint(findLSB(tick)); }
+uint slowest_power() { return uint(findLSB(ticks_apart)); }
+bool has_slowest(uint power) { return power + 1u >= slowest_power(); }
+
+// `r`: its slowness, if that is not the one of most.
+void list_fast_body(uint body, uint r)
+{
+    if (has_slowest(r))
+        fast_bodies[word_from_end(atomicAdd(arrivals[k_all_fast_bodies], 1u))] = body;
+    else
+        fast_bodies[list_word(atomicAdd(arrivals[k_all_fastest_bodies], 1u))] = body;
+}
+
+uint fastest_bodies; // that are listed
+
+uint count_fast_bodies(uint tick)
+{
+    fastest_bodies = arrivals[k_all_fastest_bodies];
+    return fastest_bodies + (has_slowest(ticks_power(tick)) ? arrivals[k_all_fast_bodies] : 0u);
+}
+
+uint fast_body(uint i) { return fast_bodies[i < fastest_bodies ? list_word(i) : word_from_end(i - fastest_bodies)]; }
 
 // ---- the deal ----
 //
@@ -184,8 +208,6 @@ uint next_fast_place(uint place, uint r, uint end)
 // In those the order at a body is that of its contacts which have one. Of a tick which 2^t is the highest power to divide, these
 // are the contacts for which a tick in 2^t or in fewer begins a sub-step.
 
-uint ticks_power(uint tick) { return uint(findLSB(tick)); }
-uint slowest_power() { return uint(findLSB(ticks_apart)); }
 // `word`: k_used_low or k_used_high.
 uint fast_word(uint body, uint power, uint word) { return words_of_body() * body + 2u * power + word; }
 

@@ -113,7 +113,7 @@ void integrate_own_bodies(uint tick)
     bool looks_at_all = 2u * launched > parameters.body_count;
     uint count = looks_at_all ? parameters.body_count : launched;
     bool all = most_have_substep(tick);
-    if (!all) count = arrivals[k_all_fast_bodies];
+    if (!all) count = count_fast_bodies(tick);
     uint end = part_begin(count, gl_WorkGroupID.x + 1u);
     uint next = part_begin(count, gl_WorkGroupID.x) + worker;
     while (hub < hub_count || next < end) {
@@ -123,13 +123,14 @@ void integrate_own_bodies(uint tick)
             body = hubs[hub];
             hub += gl_NumWorkGroups.x;
         } else {
-            body = !all ? fast_bodies[list_word(next)] : looks_at_all ? next : launched_bodies[next];
+            body = !all ? fast_body(next) : looks_at_all ? next : launched_bodies[next];
             next += workers();
         }
         if (k_multirate_islands && tick == 0u) {
             forget_fast_colours(body);
             BodyInertia inertia = unpack(inertias[body]);
-            if (!moves_hub && is_own(inertia) && (1u << slowness(inertia.traits)) != ticks_apart) list_fast_body(body);
+            uint r = slowness(inertia.traits);
+            if (!moves_hub && is_own(inertia) && (1u << r) != ticks_apart) list_fast_body(body, r);
         }
         integrate_body(body, tick);
         bool keeps_stamps = parameters.relax == 0u && tick == like_substeps * ticks_apart;
