@@ -73,14 +73,13 @@ void sort_digit_by_digit(Device& device, const Sort& sort) {
                     .bindings = {{"Keys", from.keys}}});
         if (adds_up == 0)
             scan(device, BufferId::DigitCounts, sort.capacity, sort.count_counter, k_none, k_sort_tile, k_digits);
-        device.run({.kernel = scatter_keys,
-                    .items = sort.capacity,
-                    .slot = sort.slot,
-                    .args = args,
-                    .bindings = {{"Keys", from.keys},
-                                 {"Values", from.values},
-                                 {"SortedKeys", to.keys},
-                                 {"SortedValues", to.values}}});
+        device.run(
+            {.kernel = scatter_keys,
+             .items = sort.capacity,
+             .slot = sort.slot,
+             .args = args,
+             .bindings = {
+                 {"Keys", from.keys}, {"Values", from.values}, {"SortedKeys", to.keys}, {"SortedValues", to.values}}});
         std::swap(from, to);
     }
 }
