@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "fresh_memory.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -83,9 +84,11 @@ Shape unpack_shape(const BodyShape& shape) {
 
 void BodyTable::reserve(std::size_t more) {
     const std::size_t count = slot_count() + more - std::min(more, slot_count() - present_count);
-    for_each_slot_list([count](auto& list) {
-        if (count > list.capacity()) list.reserve(std::max(count, 2 * list.capacity()));
-    });
+    const auto grow = [](auto& list, std::size_t wanted) { reserve_touched(list, wanted, 2 * list.capacity()); };
+    for_each_slot_list([&](auto& list) { grow(list, count); });
+    grow(generations, count);
+    grow(next_generations, count);
+    grow(changed, changed.size() + more);
 }
 
 void BodyTable::append_slot() {
@@ -136,7 +139,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
     if (definition.kind == BodyKind::Kinematic) ++kinematic_count;
     uses[slot] = Use::Present;
     ++present_count;
-    mark(slot, k_dirty_all);
+    note_change(slot, k_dirty_all); // and no load
     return id_of(slot);
 }
 
@@ -239,27 +242,34 @@ std::string BodyTable::complete() {
     return {};
 }
 
-void BodyTable::mark(uint slot, std::uint8_t what) {
+void BodyTable::note_change(uint slot, std::uint8_t what) {
     if (dirty[slot] == 0) changed.push_back(slot);
-    if ((what & k_dirty_load) != 0) loaded.push_back(slot);
     dirty[slot] |= what;
 }
 
-BodyChanges BodyTable::take_changes() {
+void BodyTable::mark(uint slot, std::uint8_t what) {
+    if ((what & k_dirty_load) != 0) loaded.push_back(slot);
+    note_change(slot, what);
+}
+
+BodyChanges BodyTable::take_changes(bool with_loads) {
     BodyChanges changes;
     if (changed.empty()) return changes;
-    std::ranges::sort(changed); // neighbours go to neighbouring memory
+    if (!std::ranges::is_sorted(changed)) std::ranges::sort(changed); // neighbours go to neighbouring memory
     const auto take = [&](std::uint8_t what, BufferId buffer, const auto& all) {
         const auto count =
             static_cast<std::size_t>(std::ranges::count_if(changed, [&](uint slot) { return is_dirty(slot, what); }));
         if (count == 0) return;
         RecordChanges change{buffer, {}, {}};
-        change.slots.reserve(count);
-        change.records.reserve(count * sizeof(all[0]));
-        for (const uint slot : changed) {
-            if (!is_dirty(slot, what)) continue;
-            change.slots.push_back(slot);
-            const auto bytes = std::as_bytes(std::span(&all[slot], 1));
+        reserve_touched(change.slots, count);
+        reserve_touched(change.records, count * sizeof(all[0]));
+        for (auto next = changed.begin(); next != changed.end();) {
+            const uint first = *next;
+            uint end = first; // of a run of neighbours
+            for (; next != changed.end() && *next == end && is_dirty(end, what); ++next)
+                change.slots.push_back(end++);
+            if (end == first) ++next;
+            const auto bytes = std::as_bytes(std::span(all).subspan(first, end - first));
             change.records.insert(change.records.end(), bytes.begin(), bytes.end());
         }
         changes.push_back(std::move(change));
@@ -268,7 +278,7 @@ BodyChanges BodyTable::take_changes() {
     take(k_dirty_velocity, BufferId::Velocities, velocities);
     take(k_dirty_shape, BufferId::Shapes, shapes);
     take(k_dirty_properties, BufferId::Properties, properties);
-    take(k_dirty_load, BufferId::Loads, loads);
+    if (with_loads) take(k_dirty_load, BufferId::Loads, loads);
     for (const uint slot : changed)
         dirty[slot] = 0;
     changed.clear();

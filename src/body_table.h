@@ -79,7 +79,8 @@ public:
     void wake_all() { waking = Waking::All; }
     bool wakes_all() const { return waking == Waking::All; }
     /// What has been marked, with the records as they are now; the table then counts as known to the device.
-    BodyChanges take_changes();
+    /// `with_loads`: whether that has room for them. Where it has none, no load may act.
+    BodyChanges take_changes(bool with_loads);
     /// Whether the host has changed records of this kind that the device does not know yet.
     bool is_dirty(uint slot, std::uint8_t what) const { return (dirty[slot] & what) != 0; }
     /// The slots with changes that the device does not know yet, each once, in no order.
@@ -103,6 +104,7 @@ private:
 
     /// Calls `visit` with each list that has one element a slot.
     template <typename Visit> void for_each_slot_list(const Visit& visit);
+    void note_change(uint slot, std::uint8_t what);
     uint take_slot();
     void append_slot();
     void drop_last_slot();

@@ -246,16 +246,6 @@ void Simulation::reserve_hits() {
     has_hits = true;
 }
 
-void Simulation::leave_out_no_loads(BodyChanges& changes) const {
-    if (has_loads) return;
-    const auto loads = std::ranges::find(changes, BufferId::Loads, &RecordChanges::buffer);
-    if (loads == changes.end()) return;
-    std::vector<BodyLoad> given(loads->slots.size());
-    std::memcpy(given.data(), loads->records.data(), loads->records.size());
-    TALUS_ASSERT(std::ranges::none_of(given, acts), "a load was given for which no room had been made");
-    changes.erase(loads);
-}
-
 void Simulation::reserve_pairs(uint count) {
     settle();
     grow_contacts(count, count);
@@ -366,7 +356,6 @@ void Simulation::search_anew() {
 }
 
 void Simulation::step(const Population& population, bool with_poses, BodyChanges changes) {
-    leave_out_no_loads(changes);
     transferred.to_device += bytes_of(changes);
     Population asked = population;
     try {
@@ -388,7 +377,6 @@ void Simulation::step(const Population& population, bool with_poses, BodyChanges
 }
 
 void Simulation::change_bodies(const Population& population, BodyChanges changes) {
-    leave_out_no_loads(changes);
     transferred.to_device += bytes_of(changes);
     try {
         settle();
@@ -425,9 +413,8 @@ static void set_substeps(StepPlan& plan, const Settings& settings) {
     const Passes passes = passes_of(settings);
     plan.sleeping = settings.sleeping;
     plan.least_substeps = passes.least_substeps;
-    plan.most_substeps = plan.small
-                             ? passes.most_substeps
-                             : std::clamp(k_most_substeps_of_large, passes.least_substeps, passes.most_substeps);
+    plan.most_substeps = plan.small ? passes.most_substeps
+                                    : std::clamp(k_most_substeps_of_large, passes.least_substeps, passes.most_substeps);
 }
 
 uint Simulation::words_of_fast_bodies(uint slots) const {

@@ -69,6 +69,8 @@ public:
     /// Makes room for loads on bodies, as forces, before the first change that has one. There is none until then, but
     /// where bodies may sleep: loads also say who has to wake. Throws Error where there is no memory.
     void reserve_loads();
+    /// As long as there is none, changes have no loads.
+    bool has_room_for_loads() const { return has_loads; }
 
     /// Makes room for pairs, so that a step with no more of them fits.
     void reserve_pairs(uint count);
@@ -175,8 +177,6 @@ private:
     bool waits_on_cpu() const { return gpu && placement.detection != gpu.get(); }
 
     void grow_everywhere(BufferId, std::size_t elements);
-    /// As long as there is no room for any: those of new bodies.
-    void leave_out_no_loads(BodyChanges&) const;
     /// Makes room for what hits have to know of bodies and contacts, from the first body on that may bounce.
     void reserve_hits();
     /// What only worlds need in which bodies may sleep.

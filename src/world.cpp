@@ -12,6 +12,7 @@
 #include "checks.h"
 #include "contact_events.h"
 #include "device/gl/callers_context.h"
+#include "fresh_memory.h"
 #include "saved_state.h"
 #include "simulation.h"
 #include "state/formulas.h"
@@ -107,7 +108,7 @@ struct World::Impl {
         simulation.reserve_bodies(table.slot_count());
         if (table.has_loads()) simulation.reserve_loads();
         device_slots = table.slot_count();
-        return table.take_changes();
+        return table.take_changes(simulation.has_room_for_loads());
     }
 
     void step(std::uint32_t count) {
@@ -183,7 +184,7 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
     impl_->finish_events();
     impl_->table.reserve(definitions.size());
     std::vector<BodyId> ids;
-    ids.reserve(definitions.size());
+    engine::reserve_touched(ids, definitions.size());
     for (const BodyDefinition& definition : definitions)
         ids.push_back(impl_->table.add(definition));
     impl_->steps_before.resize(impl_->table.slot_count());

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Bodies that come, go and change while steps are on their way: it costs bytes for what changes and nothing for the
 // rest of the world, nobody waits, and the bits are those of a world that waits after every step.
+#include <algorithm>
+#include <cstring>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -144,13 +147,49 @@ TEST_P(Changes, of_forces_have_room_from_the_first_force_on) {
     EXPECT_GE(world.memory().device, with_forces + 3u * count * 32u);
 }
 
+TEST(BodyTables, give_each_changed_record_once_and_in_order) {
+    using engine::BufferId, engine::uint;
+    engine::BodyTable table;
+    constexpr uint count = 40;
+    for (uint i = 0; i < count; ++i)
+        table.add(box_at({static_cast<float>(i), 0.0f, 0.0f}));
+    std::vector<uint> all(count);
+    std::iota(all.begin(), all.end(), 0u);
+    const auto slots_of = [](const engine::BodyChanges& changes, BufferId buffer) {
+        const auto found = std::ranges::find(changes, buffer, &engine::RecordChanges::buffer);
+        return found == changes.end() ? std::vector<uint>() : found->slots;
+    };
+    const engine::BodyChanges first = table.take_changes(false);
+    for (const BufferId buffer : {BufferId::Poses, BufferId::Velocities, BufferId::Shapes, BufferId::Properties})
+        EXPECT_EQ(slots_of(first, buffer), all);
+    EXPECT_EQ(first.size(), 4u) << "no loads";
+    EXPECT_TRUE(table.take_changes(true).empty());
+    const std::vector<uint> moved{39, 0, 7, 6, 8, 10, 38, 20}, pushed{8, 9, 7, 39, 21};
+    for (const uint slot : moved)
+        table.mark(slot, engine::k_dirty_pose);
+    for (const uint slot : pushed)
+        table.mark(slot, engine::k_dirty_velocity | engine::k_dirty_load);
+    const engine::BodyChanges second = table.take_changes(true);
+    EXPECT_EQ(slots_of(second, BufferId::Poses), (std::vector<uint>{0, 6, 7, 8, 10, 20, 38, 39}));
+    EXPECT_EQ(slots_of(second, BufferId::Velocities), (std::vector<uint>{7, 8, 9, 21, 39}));
+    EXPECT_EQ(slots_of(second, BufferId::Loads), (std::vector<uint>{7, 8, 9, 21, 39}));
+    EXPECT_EQ(second.size(), 3u);
+    const engine::RecordChanges& poses = second.front();
+    ASSERT_EQ(poses.records.size(), moved.size() * sizeof(engine::BodyPose));
+    for (std::size_t i = 0; i < poses.slots.size(); ++i) {
+        engine::BodyPose pose;
+        std::memcpy(&pose, poses.records.data() + i * sizeof pose, sizeof pose);
+        EXPECT_EQ(pose.position.x, static_cast<float>(poses.slots[i]));
+    }
+}
+
 TEST_P(Changes, of_minus_zero_are_no_loads) { // as a file may have them
     EngineRun run(options_on(GetParam()), {ground(), box_at({0.0f, 0.5f, 0.0f})});
-    static_cast<void>(run.table.take_changes());
+    static_cast<void>(run.table.take_changes(run.simulation.has_room_for_loads()));
     run.table.loads[1].force.x = -0.0f;
     run.table.mark(1, engine::k_dirty_load);
     EXPECT_FALSE(run.table.has_loads());
-    run.simulation.step(run.table.population(), false, run.table.take_changes());
+    run.simulation.step(run.table.population(), false, run.table.take_changes(run.simulation.has_room_for_loads()));
     run.simulation.settle();
     EXPECT_EQ(run.simulation.step_count(), 1u);
 }

@@ -577,13 +577,13 @@ TEST_P(ContactMemory, loses_no_body_of_the_steps_behind_one_that_has_no_room_for
     poor.run->step(3);
     engine::Simulation& simulation = poor.run->simulation;
     engine::BodyTable& table = poor.run->table;
-    static_cast<void>(table.take_changes()); // of those that are there
+    static_cast<void>(table.take_changes(simulation.has_room_for_loads())); // of those that are there
     simulation.reserve_bodies(64);
     poor.device->full = {BufferId::WarmStarts};
     const auto step_with_more = [&](int count, float z) {
         for (const BodyDefinition& body : row_of_boxes(count, z, 0.5f))
             table.add(body);
-        simulation.step(table.population(), false, table.take_changes());
+        simulation.step(table.population(), false, table.take_changes(simulation.has_room_for_loads()));
     };
     EXPECT_THROW(
         {
@@ -593,7 +593,7 @@ TEST_P(ContactMemory, loses_no_body_of_the_steps_behind_one_that_has_no_room_for
         },
         Error);
     poor.device->full.clear();
-    simulation.step(table.population(), false, table.take_changes());
+    simulation.step(table.population(), false, table.take_changes(simulation.has_room_for_loads()));
     simulation.settle();
     const auto poses = poor.run->read<engine::BodyPose>(BufferId::Poses, table.slot_count());
     for (uint i = 0; i < table.slot_count(); ++i)

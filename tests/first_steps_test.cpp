@@ -73,7 +73,7 @@ struct TableRun : EngineRun {
         if (table.has_loads()) simulation.reserve_loads();
         engine::Population population = table.population();
         population.waking = table.take_waking();
-        simulation.step(population, with_poses, table.take_changes());
+        simulation.step(population, with_poses, table.take_changes(simulation.has_room_for_loads()));
         table.forget_loads();
         table.recycle();
         simulation.settle();
@@ -211,7 +211,8 @@ TEST_P(FirstSteps, begin_with_what_the_caller_has_done_before) {
     slow.gpu->ready = true; // so that bodies can be given to it
     slow.restore(saved);
     slow.simulation.reserve_bodies(slow.table.slot_count());
-    slow.simulation.change_bodies(slow.table.population(), slow.table.take_changes()); // as before drawing
+    slow.simulation.change_bodies(slow.table.population(),
+                                  slow.table.take_changes(slow.simulation.has_room_for_loads())); // as before drawing
     slow.gpu->ready = false;
     for (int i = 0; i < 6; ++i) {
         slow.gpu->ready = i >= 3;
@@ -291,7 +292,9 @@ TEST_P(FirstSteps, are_saved_and_changed_as_others_are) {
         run->table.loads[5].force = {0.0f, 40.0f, 10.0f}; // for the step behind the change of device
         run->table.mark(5, engine::k_dirty_load);
         run->simulation.reserve_loads();
-        run->simulation.change_bodies(run->table.population(), run->table.take_changes()); // as before drawing
+        run->simulation.change_bodies(
+            run->table.population(),
+            run->table.take_changes(run->simulation.has_room_for_loads())); // as before drawing
     }
     const engine::SavedState saved = slow.save();
     EXPECT_EQ(saved.report.device, DeviceKind::Cpu);

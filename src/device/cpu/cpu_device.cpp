@@ -10,6 +10,7 @@
 #include "broad_phase/lane_search.h"
 #include "device/cpu/cpu_state.h"
 #include "device/cpu/flush_denormals.h"
+#include "fresh_memory.h"
 #include "resolution/solve_islands.h"
 
 namespace talus::engine {
@@ -43,6 +44,7 @@ public:
     Storage() = default;
     explicit Storage(std::size_t size)
         : memory(static_cast<std::byte*>(::operator new(size, k_alignment))), bytes(size) {
+        touch_pages(memory.get(), bytes);
         std::memset(memory.get(), 0, bytes);
     }
     std::byte* data() const { return memory.get(); }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// See fresh_memory.h.
+#include "fresh_memory.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace talus::engine {
+namespace {
+
+constexpr std::size_t k_page_bytes = 4096;                    // the smallest that systems have
+constexpr std::size_t k_worth_threads = std::size_t{1} << 22; // bytes; fewer take less time than threads to wake
+constexpr std::size_t k_pages_each = 128;
+
+} // namespace
+
+void touch_pages(void* begin, std::size_t bytes) {
+    if (bytes < k_worth_threads) return;
+    auto* const memory = static_cast<volatile std::byte*>(begin);
+    // Isolated, so that a thread which waits here takes up no other work of a caller that uses oneTBB, too.
+    tbb::this_task_arena::isolate([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes / k_page_bytes, k_pages_each),
+                          [&](const auto& pages) {
+                              for (std::size_t page = pages.begin(); page < pages.end(); ++page)
+                                  memory[page * k_page_bytes] = std::byte{0};
+                          });
+    });
+}
+
+} // namespace talus::engine
