@@ -20,10 +20,10 @@ void exclusive_scan(Device&, BufferId values, uint capacity, uint count_counter,
 /// What a sort works on, besides SwapKeys and SwapValues.
 struct Sort {
     BufferId keys;
-    BufferId values;      ///< move with their keys
-    uint capacity;        ///< keys
-    uint count_counter;   ///< word of Counters with the number of keys
-    uint bits = 32;       ///< keys are below 2^bits
+    BufferId values;    ///< move with their keys
+    uint capacity;      ///< keys
+    uint count_counter; ///< word of Counters with the number of keys
+    uint bits = 32;     ///< keys are below 2^bits
     /// Entry of Dispatches with a group for each k_sort_tile keys; k_none: launched for `capacity` keys.
     uint slot = k_none;
 };
@@ -37,7 +37,8 @@ struct SortPlace {
 /// Where to write what is to be sorted, so that the result comes to lie at `keys` and `values`. With an even number of
 /// passes it is there, with an odd number in SwapKeys and SwapValues, which get their room here.
 SortPlace unsorted_place(Device&, const Sort&);
-/// The other of the two, of which nothing is wanted until then, unless nothing is sorted and the last result is to stay.
+/// The other of the two, of which nothing is wanted until then, unless nothing is sorted and the last result is to
+/// stay.
 SortPlace spare_place(Device&, const Sort&);
 
 /// Sorts by key, lowest first; equal keys keep their order. A capacity of up to k_sort_in_group_keys (2,048) takes a
