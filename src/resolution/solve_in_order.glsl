@@ -327,6 +327,8 @@ bool goes_on(bool has_more)
     return is_left[rounds++ % 3u] != 0u;
 }
 
+const uint k_many_each = 16u; // contacts that a worker has of each pass over all
+
 bool is_settled = true; // all have waited for each other since the last pass
 
 // If they have not, all contacts of the body have had a sub-step in it, and a body that contacts do not push does not move.
@@ -376,7 +378,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     worker_colour = first_colour;
     uint place = worker;
     if (!all) place = next_fast_place(place, power, end);
-    uint first = k_none; // of the worker's manifolds; the next pass begins with it
+    uint first = k_none; // of the worker's manifolds that have a part in it
     bool is_ready = false;
     PassTarget target;
     while (goes_on(place < end)) {
@@ -409,7 +411,8 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     }
     if (place < end) give_up(); // a driver has ended the loop
     come_by = (place - worker) / workers();
-    take_in_hand(first, false);
+    // The next pass begins with it. Workers with few end with the last colours, and all would wait for what they load.
+    if (end > k_many_each * workers()) take_in_hand(first, false);
     bool are_all = colour_offsets[k_overflow_colour + 1u] == colour_offsets[k_first_hub_colour];
     bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;
     is_settled = !(are_all && ends_tick && move_by_themselves);
