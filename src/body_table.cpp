@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fresh_memory.h"
+#include "log.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -82,9 +83,11 @@ Shape unpack_shape(const BodyShape& shape) {
     return Sphere{shape.half_extents.x};
 }
 
-void BodyTable::reserve(std::size_t more) {
+void BodyTable::reserve(std::size_t more, uint threads) {
     const std::size_t count = slot_count() + more - std::min(more, slot_count() - present_count);
-    const auto grow = [](auto& list, std::size_t wanted) { reserve_touched(list, wanted, 2 * list.capacity()); };
+    const auto grow = [threads](auto& list, std::size_t wanted) {
+        reserve_touched(list, wanted, threads, 2 * list.capacity());
+    };
     for_each_slot_list([&](auto& list) { grow(list, count); });
     grow(generations, count);
     grow(next_generations, count);
@@ -252,7 +255,8 @@ void BodyTable::mark(uint slot, std::uint8_t what) {
     note_change(slot, what);
 }
 
-BodyChanges BodyTable::take_changes(bool with_loads) {
+BodyChanges BodyTable::take_changes(bool with_loads, uint threads) {
+    TALUS_ASSERT(with_loads || !has_loads(), "a load was given for which no room had been made");
     BodyChanges changes;
     if (changed.empty()) return changes;
     if (!std::ranges::is_sorted(changed)) std::ranges::sort(changed); // neighbours go to neighbouring memory
@@ -261,8 +265,8 @@ BodyChanges BodyTable::take_changes(bool with_loads) {
             static_cast<std::size_t>(std::ranges::count_if(changed, [&](uint slot) { return is_dirty(slot, what); }));
         if (count == 0) return;
         RecordChanges change{buffer, {}, {}};
-        reserve_touched(change.slots, count);
-        reserve_touched(change.records, count * sizeof(all[0]));
+        reserve_touched(change.slots, count, threads);
+        reserve_touched(change.records, count * sizeof(all[0]), threads);
         for (auto next = changed.begin(); next != changed.end();) {
             const uint first = *next;
             uint end = first; // of a run of neighbours

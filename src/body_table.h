@@ -35,8 +35,9 @@ bool acts(const BodyLoad&);
 
 class BodyTable {
 public:
-    /// Room for as many bodies more at one go, of which some may take slots that are free, or will be.
-    void reserve(std::size_t more);
+    /// Room for as many bodies more at one go, of which some may take slots that are free, or will be. `threads`: that
+    /// may help, here and below.
+    void reserve(std::size_t more, uint threads = 1);
     /// A checked definition becomes a body, its rotation brought to unit length.
     BodyId add(const BodyDefinition&);
     void remove(BodyId);
@@ -80,7 +81,7 @@ public:
     bool wakes_all() const { return waking == Waking::All; }
     /// What has been marked, with the records as they are now; the table then counts as known to the device.
     /// `with_loads`: whether that has room for them. Where it has none, no load may act.
-    BodyChanges take_changes(bool with_loads);
+    BodyChanges take_changes(bool with_loads, uint threads = 1);
     /// Whether the host has changed records of this kind that the device does not know yet.
     bool is_dirty(uint slot, std::uint8_t what) const { return (dirty[slot] & what) != 0; }
     /// The slots with changes that the device does not know yet, each once, in no order.

@@ -103,7 +103,8 @@ void Simulation::begin_on_cpu() {
             for (std::size_t i = 0; i < k_buffers.size(); ++i) {
                 const BufferId buffer = static_cast<BufferId>(i);
                 const bool shares_a_place = std::ranges::find(k_by_turns, buffer) != k_by_turns.end();
-                if (!shares_a_place && buffer != BufferId::FastBodies) host->grow(buffer, gpu->size(buffer));
+                const bool is_of_gpu = buffer == BufferId::FastBodies; // no twin has a use for it
+                if (!shares_a_place && !is_of_gpu) host->grow(buffer, gpu->size(buffer));
             }
             host->grow(BufferId::Uncoloured, plan.pair_capacity * sizeof(uint));
         } catch (const Error& error) {

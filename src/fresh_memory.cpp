@@ -15,16 +15,16 @@ constexpr std::size_t k_pages_each = 128;
 
 } // namespace
 
-void touch_pages(void* begin, std::size_t bytes) {
-    if (bytes < k_worth_threads) return;
+void touch_pages(void* begin, std::size_t bytes, unsigned threads) {
+    if (bytes < k_worth_threads || threads <= 1) return;
     auto* const memory = static_cast<volatile std::byte*>(begin);
-    // Isolated, so that a thread which waits here takes up no other work of a caller that uses oneTBB, too.
-    tbb::this_task_arena::isolate([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes / k_page_bytes, k_pages_each),
-                          [&](const auto& pages) {
-                              for (std::size_t page = pages.begin(); page < pages.end(); ++page)
-                                  memory[page * k_page_bytes] = std::byte{0};
-                          });
+    // In an arena of its own the caller takes up no other work while it waits.
+    tbb::task_arena(static_cast<int>(threads)).execute([&] {
+        const tbb::blocked_range<std::size_t> all(0, bytes / k_page_bytes, k_pages_each);
+        tbb::parallel_for(all, [memory](const tbb::blocked_range<std::size_t>& pages) {
+            for (std::size_t page = pages.begin(); page < pages.end(); ++page)
+                memory[page * k_page_bytes] = std::byte{0};
+        });
     });
 }
 

@@ -9,15 +9,16 @@
 
 namespace talus::engine {
 
-/// Accesses each page, by several threads where there are many. What lies there is lost.
-void touch_pages(void* begin, std::size_t bytes);
+/// Accesses each page, by so many threads where there are many pages; does nothing with one. What lies there is lost.
+void touch_pages(void* begin, std::size_t bytes, unsigned threads);
 
-/// Gives the list, which is to be filled up to `count`, room for that and no pages to wait for; and room for
-/// `capacity`, if it had too little.
-template <typename T> void reserve_touched(std::vector<T>& list, std::size_t count, std::size_t capacity = 0) {
+/// Gives the list, which is to be filled up to `count`, room for that, if it had too little, and then for `capacity` at
+/// least; and no pages to wait for.
+template <typename T>
+void reserve_touched(std::vector<T>& list, std::size_t count, unsigned threads, std::size_t capacity = 0) {
     if (count <= list.capacity()) return;
     list.reserve(std::max(count, capacity));
-    touch_pages(list.data() + list.size(), (count - list.size()) * sizeof(T));
+    touch_pages(list.data() + list.size(), (count - list.size()) * sizeof(T), threads);
 }
 
 } // namespace talus::engine

@@ -69,7 +69,8 @@ void Simulation::restore(const SavedState& saved) {
     const auto pair_count = static_cast<uint>(saved.manifolds.size());
     reserve_bodies(saved.table.slot_count());
     if (!saved.rests.empty()) reserve_rests(body_capacity);
-    if (saved.settings.sleeping || saved.table.has_loads()) reserve_loads();
+    if (saved.table.has_loads()) reserve_loads();
+    reserve_for(saved.settings);
 
     std::vector<Pair> pairs;
     std::vector<ManifoldPoint> points(std::size_t{4} * pair_count);

@@ -269,11 +269,12 @@ void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
                          .table_size = std::max(table_size, partners),
                          .boxes = boxes_of_search(slots),
                          .sorted = std::max({pair_capacity, slots, k_mark_words}), // and marks of pairs lie there
-                         .fast_words = words_of_fast_bodies(slots),
+                         .fast_words = words_of_fast_bodies(settings, slots),
                          .keeps_old = watches_contacts()};
     if (cpu) cpu->reserve_contacts(demand);
     if (info.kind == DeviceKind::Hybrid) { // nothing is solved, and no watch told, on the other one
         demand.manifolds = demand.fast_words = 0;
+        demand.sorted = slots;
         demand.keeps_old = false;
     }
     if (gpu) gpu->reserve_contacts(demand);
@@ -321,24 +322,24 @@ void Simulation::write_behind_steps(BufferId buffer, std::size_t offset, std::sp
     if (placement.hybrid()) placement.detection->write(buffer, offset, bytes);
 }
 
-void Simulation::set_settings(const Settings& wanted) {
+void Simulation::reserve_for(const Settings& wanted) {
+    settle();
     if (wanted.sleeping) {
         reserve_rests(body_capacity);
         reserve_loads(); // which say who has to wake
     }
-    const uint words_before = words_of_fast_bodies(body_capacity);
-    const Settings before = std::exchange(settings, wanted);
-    if (words_of_fast_bodies(body_capacity) > words_before) {
-        try {
-            settle();
-            grow_contacts(0, 0);
-        } catch (const Error&) {
-            settings = before;
-            throw;
-        }
-    }
-    if (wanted.broad_phase != before.broad_phase) search_anew();
+    ContactDemand demand; // the room keeps what it has of all else
+    demand.fast_words = words_of_fast_bodies(wanted, body_capacity);
+    if (!gpu || placement.hybrid() || demand.fast_words <= words_of_fast_bodies(settings, body_capacity)) return;
+    other_records = true;
+    gpu->reserve_contacts(demand);
+}
+
+void Simulation::set_settings(const Settings& wanted) {
+    reserve_for(wanted);
+    if (wanted.broad_phase != settings.broad_phase) search_anew();
     begin_graph_anew();
+    settings = wanted;
 }
 
 void Simulation::begin_graph_anew() {
@@ -417,12 +418,12 @@ static void set_substeps(StepPlan& plan, const Settings& settings) {
                                     : std::clamp(k_most_substeps_of_large, passes.least_substeps, passes.most_substeps);
 }
 
-uint Simulation::words_of_fast_bodies(uint slots) const {
+uint Simulation::words_of_fast_bodies(const Settings& of, uint slots) const {
     StepPlan multirate = plan;
     multirate.body_count = slots;
     multirate.small = slots <= k_island_bodies;
     multirate.one_island = multirate.bounces = false;
-    set_substeps(multirate, settings);
+    set_substeps(multirate, of);
     return engine::words_of_fast_bodies(multirate);
 }
 
@@ -460,7 +461,8 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
 }
 
 bool Simulation::may_lie_beside(const Population& population) const {
-    return !placement.hybrid() && population.waking == Waking::None && few_are_solved.holds();
+    return !placement.hybrid() && population.waking == Waking::None && few_are_solved.holds() &&
+           placement.resolution->constraints_beside() > 0;
 }
 
 /// The invocations that the persistent launch is to have on a GPU that can run so many of its kernel at a time. Those

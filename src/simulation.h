@@ -80,6 +80,9 @@ public:
     void restore(const SavedState&);
 
     /// Needs settle() before.
+    /// Makes the room that steps with such settings need. Throws Error where there is no memory; nothing else is
+    /// changed.
+    void reserve_for(const Settings&);
     void set_settings(const Settings&);
     /// The next step searches for pairs, whether that is due or not. Needs settle() before.
     void search_anew();
@@ -184,8 +187,8 @@ private:
     void finish_oldest();
     void collect_reports(Ticket, std::span<const uint> counters);
     void grow_contacts(uint pairs, uint manifolds, uint bodies = 0);
-    /// Of FastBodies, for so many body slots with these settings.
-    uint words_of_fast_bodies(uint slots) const;
+    /// Of FastBodies, for so many body slots with such settings.
+    uint words_of_fast_bodies(const Settings&, uint slots) const;
     /// For so many and some to spare, or at least for so many, at one go; 0: there is room.
     void make_contact_room(uint pairs, uint manifolds);
     void make_hub_room(uint manifolds);

@@ -11,6 +11,7 @@
 #include "body_table.h"
 #include "checks.h"
 #include "contact_events.h"
+#include "device/cpu/cpu_threads.h"
 #include "device/gl/callers_context.h"
 #include "fresh_memory.h"
 #include "saved_state.h"
@@ -24,7 +25,8 @@ using namespace engine;
 struct World::Impl {
     Impl(const Settings& wanted, const WorldOptions& options)
         : simulation(options),
-          own_context(options.gl_context == GlContext::Own && simulation.device().kind != DeviceKind::Cpu) {
+          own_context(options.gl_context == GlContext::Own && simulation.device().kind != DeviceKind::Cpu),
+          host_threads(options.threads > 0 ? options.threads : engine::available_threads()) {
         set_settings(wanted);
     }
 
@@ -108,7 +110,7 @@ struct World::Impl {
         simulation.reserve_bodies(table.slot_count());
         if (table.has_loads()) simulation.reserve_loads();
         device_slots = table.slot_count();
-        return table.take_changes(simulation.has_room_for_loads());
+        return table.take_changes(simulation.has_room_for_loads(), host_threads);
     }
 
     void step(std::uint32_t count) {
@@ -146,7 +148,8 @@ struct World::Impl {
     bool both_present(uint a, uint b) const { return table.is_present(a) && table.is_present(b); }
 
     Simulation simulation;
-    bool own_context; ///< OpenGL is used, in a context of the world's own
+    bool own_context;  ///< OpenGL is used, in a context of the world's own
+    uint host_threads; ///< that may work on lists of many bodies
     Settings settings;
     BodyTable table;
     std::uint64_t table_step = 0; ///< the step whose poses and velocities the table holds
@@ -182,9 +185,9 @@ std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
     for (std::size_t i = 0; i < definitions.size(); ++i)
         check_definition(definitions[i], {definitions.size() == 1 ? "{0}" : "{0}: body {1} of the list", "add", i});
     impl_->finish_events();
-    impl_->table.reserve(definitions.size());
+    impl_->table.reserve(definitions.size(), impl_->host_threads);
     std::vector<BodyId> ids;
-    engine::reserve_touched(ids, definitions.size());
+    engine::reserve_touched(ids, definitions.size(), impl_->host_threads);
     for (const BodyDefinition& definition : definitions)
         ids.push_back(impl_->table.add(definition));
     impl_->steps_before.resize(impl_->table.slot_count());

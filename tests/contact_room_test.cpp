@@ -177,7 +177,8 @@ TEST(ContactRooms, have_constraints_over_the_old_contacts_in_a_step_and_over_the
 TEST(ContactRooms, have_a_few_constraints_beside_the_contacts_of_two_steps) {
     ContactRoom room = room_for(1000, 600, false, 65'536);
     const auto whole_blocks = [](uint constraints) { return constraints / 32 * 32; };
-    EXPECT_EQ(room.constraints_beside(), whole_blocks((65'536 * 4 + 256) / 240)) << "over the table and one box";
+    EXPECT_EQ(room.constraints_beside(), whole_blocks((65'536 * 4 + 4096 + 2 * 256 - 256) / 240))
+        << "over the table, the list and what sorts need, less room behind them";
     EXPECT_EQ(room_for(1000, 600, false, 65'536, 8192).constraints_beside(), whole_blocks(2 * 65'536 * 4 / 240));
     room.place_constraints(ConstraintPlace::BesideContacts);
     for (int step = 0; step < 2; ++step) {
@@ -463,6 +464,7 @@ public:
 
     ContactDemand most = k_boundless; // that there is room for
     uint largest_table = engine::k_none;
+    uint most_fast_words = engine::k_none;
     std::set<BufferId> full; // that cannot grow
     const engine::Kernel* faulty = nullptr;
 
@@ -473,7 +475,7 @@ public:
 
     void reserve_contacts(const ContactDemand& demand) override {
         if (demand.pairs > most.pairs || demand.manifolds > most.manifolds || demand.table_size > largest_table ||
-            demand.boxes > most.boxes)
+            demand.boxes > most.boxes || demand.fast_words > most_fast_words)
             throw Error("no room");
         StandInDevice::reserve_contacts(demand);
     }
@@ -568,6 +570,63 @@ TEST_P(ContactMemory, leaves_a_world_alone_that_has_no_room_for_what_a_snapshot_
     EXPECT_EQ(poor.run->simulation.report().step, 3u);
     EXPECT_EQ(read_contacts(poor.run->simulation).manifolds.size(), manifolds);
     EXPECT_TRUE(poor.run->motion() == motion);
+}
+
+constexpr uint k_multirate_slots = 70'000; // enough for an island that is multirate
+
+/// Settings that differ in the words that a body has in FastBodies: 7, 5, 1, 11 and 0 with these.
+std::vector<Settings> rates() {
+    std::vector<Settings> all(5);
+    all[1].sleeping = true;
+    all[2].substeps = all[2].max_substeps = 32;
+    all[3].substeps = 1;
+    all[4].substeps = 3; // the most are no double of it
+    return all;
+}
+
+TEST_P(ContactMemory, is_there_for_what_fast_bodies_know_whatever_the_settings_become) {
+    if (GetParam() == DeviceKind::Cpu) return; // no launch of it needs them
+    WorldOptions options = options_on(GetParam());
+    options.capacities.bodies = k_multirate_slots;
+    EngineRun run(options, tower());
+    engine::Device& device = run.simulation.state_device();
+    std::set<uint> sizes;
+    for (int i = 0; i < 10; ++i) {
+        run.simulation.set_settings(rates()[static_cast<std::size_t>(i * 3 % 5)]);
+        engine::Population many = run.table.population();
+        many.slots = k_multirate_slots;
+        const uint words = words_of_fast_bodies(run.simulation.plan_step(many));
+        sizes.insert(words / many.slots);
+        if (GetParam() == DeviceKind::Gpu) {
+            EXPECT_GE(device.size(BufferId::FastBodies), words * sizeof(uint));
+        }
+    }
+    EXPECT_EQ(sizes, (std::set<uint>{0, 1, 5, 7, 11}));
+}
+
+TEST_P(ContactMemory, leaves_a_world_alone_that_has_no_room_for_the_rates_of_other_settings) {
+    if (GetParam() != DeviceKind::Gpu) return;
+    PoorRun from(GetParam(), true, tower(), rates()[0]);
+    from.run->step(5);
+    const engine::SavedState saved = save_state(from.run->simulation, from.run->table, from.run->settings);
+    PoorRun poor(GetParam(), true, tower(), rates()[2]);
+    engine::Simulation& simulation = poor.run->simulation;
+    simulation.reserve_bodies(k_multirate_slots);
+    poor.run->step(3);
+    const std::size_t manifolds = read_contacts(simulation).manifolds.size();
+    const std::vector<float> motion = poor.run->motion();
+    poor.device->most_fast_words = 0;
+    EXPECT_THROW(simulation.set_settings(rates()[3]), Error);
+    EXPECT_THROW(simulation.restore(saved), Error);
+    EXPECT_EQ(simulation.report().step, 3u);
+    EXPECT_EQ(read_contacts(simulation).manifolds.size(), manifolds);
+    EXPECT_TRUE(poor.run->motion() == motion);
+    poor.device->most_fast_words = engine::k_none;
+    PoorRun rich(GetParam(), true, tower(), rates()[2]);
+    rich.run->step(3);
+    for (PoorRun* each : {&poor, &rich})
+        each->run->step(5);
+    EXPECT_TRUE(poor.run->motion() == rich.run->motion()) << "the settings are what they were";
 }
 
 TEST_P(ContactMemory, loses_no_body_of_the_steps_behind_one_that_has_no_room_for_hits) {

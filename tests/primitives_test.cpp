@@ -212,6 +212,28 @@ TEST_P(Primitives, keys_of_all_bits_stay_within_the_count) {
     }
 }
 
+TEST_P(Primitives, a_sort_of_nothing_leaves_the_last_result_alone) {
+    for (const uint bits : {8u, 16u, 20u}) {
+        SCOPED_TRACE(bits);
+        const engine::Sort wanted{.keys = BufferId::SortKeys,
+                                  .values = BufferId::SortValues,
+                                  .capacity = 3'000,
+                                  .count_counter = k_count,
+                                  .bits = bits};
+        const Words keys(wanted.capacity, k_untouched), values(wanted.capacity, k_untouched - 1);
+        upload(*device, BufferId::SortKeys, keys);
+        upload(*device, BufferId::SortValues, values);
+        const auto unsorted = unsorted_place(*device, wanted), spare = spare_place(*device, wanted);
+        EXPECT_NE(unsorted.keys, spare.keys);
+        EXPECT_NE(unsorted.values, spare.values);
+        EXPECT_EQ(unsorted.keys == BufferId::SortKeys, bits == 16) << "the number of passes is even";
+        set_counters(*device, 0);
+        sort_by_key(*device, wanted);
+        EXPECT_TRUE(download(*device, BufferId::SortKeys, keys.size()) == keys);
+        EXPECT_TRUE(download(*device, BufferId::SortValues, values.size()) == values);
+    }
+}
+
 TEST_P(Primitives, sort_takes_as_many_passes_as_the_bits_need) {
     for (const uint bits : {1u, 8u, 9u, 16u, 20u, 24u}) {
         SCOPED_TRACE(bits);

@@ -96,8 +96,8 @@ enum class ContactWatch : std::uint32_t {
 struct WorldOptions {
     DeviceKind device = DeviceKind::Auto;  ///< where the step runs
     GlContext gl_context = GlContext::Own; ///< which context the GPU is used through
-    std::uint32_t threads = 0;             ///< of the CPU, where it takes part; 0: as many as the machine has
-    bool profile = false;                  ///< measure every stage (see StepReport::stage_ms); costs a little time
+    std::uint32_t threads = 0; ///< of the CPU, for its parts of steps and for many new bodies; 0: all it has
+    bool profile = false;      ///< measure every stage (see StepReport::stage_ms); costs a little time
     /// A debug context where it is Talus's own: the driver's messages go to the log, with the stage that they come
     /// from. The environment variable TALUS_GL_DEBUG=1 asks for it too. In the caller's context they go where the
     /// caller sends them; the stages are debug groups there.

@@ -74,8 +74,8 @@ struct ContactDemand {
 /// Where constraints are to lie in the room of contacts.
 enum class ConstraintPlace : std::uint8_t { OverOldContacts, OverNewContacts, BesideContacts };
 
-/// A kernel's block and the buffer that it stands for in this launch. Without one it stands for the buffer of its name,
-/// if there is such a one: primitives have blocks without.
+/// A kernel's block and the buffer that it stands for in this launch. Without a binding it stands for the buffer of its
+/// name; blocks of primitives have names that are no buffer's, and so always one.
 struct Binding {
     const char* block;
     BufferId buffer;

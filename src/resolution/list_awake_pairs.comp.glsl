@@ -26,7 +26,7 @@ void main()
         dispatches[k_dispatch_graph_tiles] = groups_for(listed, k_sort_tile);
         dispatches[k_dispatch_graph_counts] = groups_for(listed, k_count_group);
     }
-    if (32u * word >= pair_count) return;
+    if (listed == 0u || 32u * word >= pair_count) return;
     uint group = word / k_mark_words;
     uint place = mark_counts[group];
     for (uint before = k_mark_words * group; before < word; ++before)

@@ -94,7 +94,7 @@ void main()
     counters[k_counter_launched_manifolds] = launches ? offsets[k_overflow_colour + 1u] - offsets[0] : 0u;
     arrivals[0] = 0u; // of solve_persistent
     arrivals[k_all_fastest_bodies] = 0u;
-    arrivals[k_all_fast_bodies] = 0u;
+    arrivals[k_all_other_fast_bodies] = 0u;
     counters[k_counter_graph_was_due] = due ? 1u : 0u;
     bool is_next_due = on == 0u || made_for == k_due_twice;
     counters[k_counter_graph_due] = is_next_due ? 1u : 0u;

@@ -60,7 +60,7 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     counters[k_counter_launched_manifolds] = launches ? offsets[k_overflow_colour + 1] - offsets[0] : 0;
     state.arrivals[0] = 0;
     state.arrivals[k_all_fastest_bodies] = 0;
-    state.arrivals[k_all_fast_bodies] = 0;
+    state.arrivals[k_all_other_fast_bodies] = 0;
     counters[k_counter_graph_was_due] = due ? 1 : 0;
     const bool is_next_due = on == 0 || made_for == k_due_twice;
     counters[k_counter_graph_due] = is_next_due ? 1 : 0;

@@ -74,7 +74,8 @@ void wake(Device& device, const StepPlan& plan) {
     device.run({.kernel = wake_neighbours, .items = plan.pair_capacity});
 }
 
-// What it launches does nothing in a step whose graph is still the last one's.
+// What it launches does nothing in a step whose graph is still the last one's. ManifoldKeys and ManifoldOrder of
+// kernels before the sort are where the sort begins.
 static void make_graph(Device& device, const StepPlan& plan) {
     const Sort order{.keys = BufferId::ManifoldKeys,
                      .values = BufferId::ManifoldOrder,
@@ -83,14 +84,14 @@ static void make_graph(Device& device, const StepPlan& plan) {
                      .bits = manifold_key_bits(plan),
                      .slot = k_dispatch_graph_tiles};
     const SortPlace unsorted = unsorted_place(device, order);
+    const SortPlace other = plan.sleeps_in_parts() ? spare_place(device, order) : unsorted;
     // Of listed pairs the colours lie at the pairs, and the keys in the order of the list.
-    const SortPlace spare = plan.sleeps_in_parts() ? spare_place(device, order) : unsorted;
-    const BufferId colours = spare.keys;
+    const BufferId colours = other.keys;
     const bool measures_islands = plan.measures_islands();
     device.run({.kernel = begin_graph,
                 .items = std::max(plan.body_count, 1u),
                 .args = {measures_islands, plan.sleeps_in_parts()}});
-    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan, unsorted, spare);
+    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan, unsorted, other);
     device.run({.kernel = keep_colours,
                 .slot = k_dispatch_graph_counts,
                 .args = {plan.sleeps_in_parts()},

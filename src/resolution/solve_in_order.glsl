@@ -98,20 +98,20 @@ bool has_slowest(uint power) { return power + 1u >= slowest_power(); }
 void list_fast_body(uint body, uint r)
 {
     if (has_slowest(r))
-        fast_bodies[word_from_end(atomicAdd(arrivals[k_all_fast_bodies], 1u))] = body;
+        fast_bodies[word_from_end(atomicAdd(arrivals[k_all_other_fast_bodies], 1u))] = body;
     else
         fast_bodies[list_word(atomicAdd(arrivals[k_all_fastest_bodies], 1u))] = body;
 }
 
-uint fastest_bodies; // that are listed
+uint fastest_body_count; // that are listed
 
 uint count_fast_bodies(uint tick)
 {
-    fastest_bodies = arrivals[k_all_fastest_bodies];
-    return fastest_bodies + (has_slowest(ticks_power(tick)) ? arrivals[k_all_fast_bodies] : 0u);
+    fastest_body_count = arrivals[k_all_fastest_bodies];
+    return fastest_body_count + (has_slowest(ticks_power(tick)) ? arrivals[k_all_other_fast_bodies] : 0u);
 }
 
-uint fast_body(uint i) { return fast_bodies[i < fastest_bodies ? list_word(i) : word_from_end(i - fastest_bodies)]; }
+uint fast_body(uint i) { return fast_bodies[i < fastest_body_count ? list_word(i) : word_from_end(i - fastest_body_count)]; }
 
 // ---- the deal ----
 //

@@ -183,8 +183,8 @@ const uint k_spread_group = 256u; // bodies that one group sums
 const uint k_count_group = 256u;  // items that one group counts: with small groups, what they add up waits for one word
 const uint k_mark_words = k_count_group / 32u; // of a bit for each of them
 // Of Arrivals, see primitives/grid_barrier.glsl.
-const uint k_all_fastest_bodies = 3u; // the word with how many bodies of a multirate solve are listed as its fastest
-const uint k_all_fast_bodies = 4u;    // and how many as half as fast as these at most
+const uint k_all_fastest_bodies = 3u;    // the word with how many bodies of a multirate solve are listed from the front
+const uint k_all_other_fast_bodies = 4u; // and from the end of their list
 const uint k_arrival_words = 5u;
 const uint k_hub_group = 256u;   // changes of a hub that are summed side by side
 const uint k_island_bodies = 1024u; // body slots of a world that is solved island by island

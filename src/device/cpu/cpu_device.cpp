@@ -42,9 +42,9 @@ std::string compiler_name() {
 class Storage {
 public:
     Storage() = default;
-    explicit Storage(std::size_t size)
+    Storage(std::size_t size, uint threads)
         : memory(static_cast<std::byte*>(::operator new(size, k_alignment))), bytes(size) {
-        touch_pages(memory.get(), bytes);
+        touch_pages(memory.get(), bytes, threads);
         std::memset(memory.get(), 0, bytes);
     }
     std::byte* data() const { return memory.get(); }
@@ -80,7 +80,7 @@ public:
         Storage& old = storage_of(buffer);
         if (bytes <= old.size()) return;
         try {
-            Storage larger(bytes);
+            Storage larger(bytes, threads.count());
             if (old.size() > 0) std::memcpy(larger.data(), old.data(), old.size());
             old = std::move(larger);
         } catch (const std::bad_alloc&) {

@@ -26,7 +26,7 @@ struct CpuState {
 #undef X
     Parameters parameters{};
 
-    /// The buffer that a parameterised kernel's block stands for. Only for buffers of words.
+    /// The buffer that a block stands for which a launch may bind. Only for buffers of words.
     Array<uint> words(BufferId) const;
 
     /// Calls body(i) for every i below count, on all threads of the device. Which thread takes which item, and in which

@@ -49,7 +49,7 @@ public:
 
     std::size_t bytes() const;
     Place place(BufferId) const;
-    /// Whether its content means nothing, as the constraints lie over it, or it is made before them in each step.
+    /// Whether its content means nothing, as the constraints lie over it, or each step makes it anew.
     bool is_covered(BufferId) const;
 
     /// Room for at least so many, with the same arrays at the start and the same ones covered; constraints that lay
