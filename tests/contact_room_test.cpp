@@ -127,7 +127,7 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                 EXPECT_GE(lists[0].bytes, size.pairs * sizeof(uint));
                 EXPECT_GE(lists[1].bytes, size.sorted * sizeof(uint));
                 EXPECT_GE(lists[2].bytes, size.sorted * sizeof(uint));
-                for (const auto [one, other] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+                for (const auto& [one, other] : {std::pair{0, 1}, {0, 2}, {1, 2}})
                     EXPECT_FALSE(overlap(lists[one], lists[other])) << "the graph has all three";
                 EXPECT_GT(boxes.bytes, 0u);
                 EXPECT_GE(boxes.bytes, size.boxes * sizeof(engine::Aabb));
