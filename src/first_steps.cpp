@@ -93,7 +93,7 @@ void Simulation::choose_placement(const Population& population) {
 }
 
 bool Simulation::may_be_on_cpu(const Population& population) const {
-    return population.slots <= k_most_bodies_a_thread * (cpu_threads > 0 ? cpu_threads : available_threads());
+    return population.slots <= k_most_bodies_a_thread * threads_asked_for(cpu_threads);
 }
 
 void Simulation::begin_on_cpu() {

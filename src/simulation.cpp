@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <chrono>
-#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -410,8 +409,10 @@ void Simulation::write_body_count(uint slots) {
 }
 
 /// `plan.small` is known.
-static void set_substeps(StepPlan& plan, const Settings& settings) {
+static void set_passes(StepPlan& plan, const Settings& settings) {
     const Passes passes = passes_of(settings);
+    plan.iterations = passes.iterations;
+    plan.relax = passes.relax;
     plan.sleeping = settings.sleeping;
     plan.least_substeps = passes.least_substeps;
     plan.most_substeps = plan.small ? passes.most_substeps
@@ -423,17 +424,15 @@ uint Simulation::words_of_fast_bodies(const Settings& of, uint slots) const {
     multirate.body_count = slots;
     multirate.small = slots <= k_island_bodies;
     multirate.one_island = multirate.bounces = false;
-    set_substeps(multirate, of);
+    set_passes(multirate, of);
     return engine::words_of_fast_bodies(multirate);
 }
 
 StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve solve) const {
-    const Passes passes = passes_of(settings);
     StepPlan now = plan;
     now.body_count = population.slots;
-    now.iterations = passes.iterations;
-    now.relax = passes.relax;
     now.small = population.slots <= k_island_bodies;
+    set_passes(now, settings);
     now.broad_phase = settings.broad_phase;
     if (now.broad_phase == BroadPhase::Auto) now.broad_phase = now.small ? BroadPhase::SweepAndPrune : BroadPhase::Bvh;
     now.one_island = population.some_kinematic;
@@ -452,7 +451,6 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     }
     if (settings.solve_order == SolveOrder::Sequential) now.overflow_count = k_none; // all
     now.overflow = now.overflow_count > 0;
-    set_substeps(now, settings);
     // None where work groups have lately done all the work, or all has slept.
     const bool launches = !(now.has_groups() || (now.sleeping && !now.small)) || plan.substep_capacity > 0;
     now.substep_capacity = launches ? std::clamp(plan.substep_capacity, now.least_substeps, now.most_substeps) : 0;

@@ -79,9 +79,8 @@ public:
     /// one's; the bodies are not its business. Throws Error where there is no room, and has changed nothing then.
     void restore(const SavedState&);
 
-    /// Needs settle() before.
-    /// Makes the room that steps with such settings need. Throws Error where there is no memory; nothing else is
-    /// changed.
+    /// Waits for the steps on their way, and makes the room that others with such settings need. Throws Error where
+    /// there is no memory; nothing else is changed.
     void reserve_for(const Settings&);
     void set_settings(const Settings&);
     /// The next step searches for pairs, whether that is due or not. Needs settle() before.

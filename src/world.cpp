@@ -26,13 +26,12 @@ struct World::Impl {
     Impl(const Settings& wanted, const WorldOptions& options)
         : simulation(options),
           own_context(options.gl_context == GlContext::Own && simulation.device().kind != DeviceKind::Cpu),
-          host_threads(options.threads > 0 ? options.threads : engine::available_threads()) {
+          host_threads(std::min(engine::threads_asked_for(options.threads), engine::available_threads())) {
         set_settings(wanted);
     }
 
     void set_settings(const Settings& wanted) {
         const CallersContext callers(own_context);
-        simulation.settle();
         simulation.set_settings(wanted);
         if (wanted != settings) table.wake_all(); // gravity may be another, and more
         settings = wanted;

@@ -6,11 +6,16 @@
 
 namespace talus::engine {
 
+std::optional<BufferId> buffer_of_block(std::string_view block) {
+    for (std::size_t i = 0; i < k_buffers.size(); ++i)
+        if (block == k_buffers[i].block) return static_cast<BufferId>(i);
+    return std::nullopt;
+}
+
 BufferId Launch::bound(const char* block) const {
     for (const Binding& binding : bindings)
         if (std::strcmp(binding.block, block) == 0) return binding.buffer;
-    for (std::size_t i = 0; i < k_buffers.size(); ++i)
-        if (std::strcmp(k_buffers[i].block, block) == 0) return static_cast<BufferId>(i);
+    if (const std::optional<BufferId> named = buffer_of_block(block)) return *named;
 
     std::string known;
     for (const Binding& binding : bindings)

@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <talus/world.h>
@@ -42,6 +44,9 @@ inline constexpr std::array<BufferInfo, static_cast<std::size_t>(BufferId::count
     TALUS_BUFFERS(X)
 #undef X
 }};
+
+/// The buffer that a GLSL block is named as; nothing where there is none.
+std::optional<BufferId> buffer_of_block(std::string_view block);
 
 /// What the narrow phase finds, and behind it the same of the last step, in the same order.
 inline constexpr std::array k_contact_buffers{BufferId::Manifolds, BufferId::ManifoldPoints, BufferId::PointSeparations,

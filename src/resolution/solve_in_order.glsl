@@ -87,7 +87,6 @@ layout(std430) coherent buffer FastBodies { uint fast_bodies[]; };
 
 uint words_of_body() { return fast_body_words(parameters.fewest_substeps, parameters.most_substeps); }
 uint list_word(uint place) { return words_of_body() * place + words_of_body() - 1u; }
-
 uint word_from_end(uint place) { return list_word(parameters.body_count - 1u - place); }
 
 uint ticks_power(uint tick) { return uint(findLSB(tick)); }

@@ -229,7 +229,7 @@ std::unique_ptr<Device> make_cpu_device(std::uint32_t threads, bool profile) {
     if (threads > k_max_threads)
         throw Error("the CPU device was asked for " + std::to_string(threads) + " threads; allowed are 1 to " +
                     std::to_string(k_max_threads) + ", or 0 for as many as the machine has");
-    return std::make_unique<CpuDevice>(threads == 0 ? available_threads() : threads, profile);
+    return std::make_unique<CpuDevice>(threads_asked_for(threads), profile);
 }
 
 } // namespace talus::engine

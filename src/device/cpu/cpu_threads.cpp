@@ -52,4 +52,8 @@ uint available_threads() {
     return static_cast<uint>(tbb::info::default_concurrency());
 }
 
+uint threads_asked_for(uint wanted) {
+    return wanted > 0 ? wanted : available_threads();
+}
+
 } // namespace talus::engine

@@ -30,5 +30,7 @@ private:
 
 /// Threads that this process may use at once.
 uint available_threads();
+/// So many as a caller asks for; 0: all of these.
+uint threads_asked_for(uint wanted);
 
 } // namespace talus::engine

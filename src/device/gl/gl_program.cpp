@@ -39,13 +39,6 @@ GLint resource(GLuint program, GLenum interface, GLuint index, GLenum property) 
     return value;
 }
 
-std::optional<BufferId> buffer_of_block(std::string_view block) {
-    for (std::size_t i = 0; i < k_buffers.size(); ++i) {
-        if (block == k_buffers[i].block) return static_cast<BufferId>(i);
-    }
-    return std::nullopt;
-}
-
 /// Whether the text declares the block `readonly`: introspection does not tell. A declaration which is not recognised
 /// counts as written to, which is always safe.
 bool is_declared_readonly(std::string_view source, const std::string& block) {
