@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "narrow_phase/narrow_phase.h"
 #include "primitives/primitives.h"
 
 namespace talus::engine {
@@ -22,7 +23,8 @@ void reserve_part(Device& device, std::size_t bytes) {
 
 void apply_changes(Device& device, const BodyChanges& changes) {
     for (const RecordChanges& change : changes) {
-        const std::size_t stride = k_buffers[static_cast<std::size_t>(change.buffer)].stride;
+        const bool forgets = change.buffer == BufferId::Starts;
+        const std::size_t stride = forgets ? 0 : k_buffers[static_cast<std::size_t>(change.buffer)].stride;
         const std::size_t most = k_part_bytes / (sizeof(uint) + stride);
         for (std::size_t first = 0; first < change.slots.size(); first += most) {
             const std::size_t count = std::min(most, change.slots.size() - first);
@@ -30,7 +32,10 @@ void apply_changes(Device& device, const BodyChanges& changes) {
             device.write(BufferId::Changes, 0, std::as_bytes(std::span(change.slots).subspan(first, count)));
             device.write(BufferId::Changes, count * sizeof(uint),
                          std::span(change.records).subspan(first * stride, count * stride));
-            scatter_changed_records(device, change.buffer, static_cast<uint>(count));
+            if (forgets)
+                forget_movements(device, static_cast<uint>(count));
+            else
+                scatter_changed_records(device, change.buffer, static_cast<uint>(count));
         }
     }
 }

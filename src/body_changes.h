@@ -13,8 +13,8 @@ namespace talus::engine {
 /// New records of one of the buffers that have one a body slot.
 struct RecordChanges {
     BufferId buffer;
-    std::vector<uint> slots; ///< each once
-    std::vector<std::byte> records;
+    std::vector<uint> slots;        ///< each once
+    std::vector<std::byte> records; ///< none of Starts: what these say of the last step's movement is forgotten
 };
 
 using BodyChanges = std::vector<RecordChanges>;

@@ -142,7 +142,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
     if (definition.kind == BodyKind::Kinematic) ++kinematic_count;
     uses[slot] = Use::Present;
     ++present_count;
-    note_change(slot, k_dirty_all); // and no load
+    note_change(slot, k_dirty_all); // and no load; nor has a new body a contact that could last
     return id_of(slot);
 }
 
@@ -207,7 +207,7 @@ void BodyTable::restore(const BodyTable& saved) {
     next_generations = std::move(newest);
     loaded.clear();
     for (uint slot = 0; slot < slot_count(); ++slot)
-        mark(slot, k_dirty_all);
+        mark(slot, k_dirty_all); // and not k_dirty_contacts: these last where they would have
     // Where the caller has changed something since the last step.
     const bool disturbed =
         !resting_slots.empty() || std::ranges::any_of(loads, [](const BodyLoad& load) { return load.disturbed != 0; });
@@ -266,13 +266,14 @@ BodyChanges BodyTable::take_changes(bool with_loads, uint threads) {
         if (count == 0) return;
         RecordChanges change{buffer, {}, {}};
         reserve_touched(change.slots, count, threads);
-        reserve_touched(change.records, count * sizeof(all[0]), threads);
+        if (!all.empty()) reserve_touched(change.records, count * sizeof(all[0]), threads);
         for (auto next = changed.begin(); next != changed.end();) {
             const uint first = *next;
             uint end = first; // of a run of neighbours
             for (; next != changed.end() && *next == end && is_dirty(end, what); ++next)
                 change.slots.push_back(end++);
             if (end == first) ++next;
+            if (all.empty()) continue; // the slots say it all
             const auto bytes = std::as_bytes(std::span(all).subspan(first, end - first));
             change.records.insert(change.records.end(), bytes.begin(), bytes.end());
         }
@@ -283,6 +284,7 @@ BodyChanges BodyTable::take_changes(bool with_loads, uint threads) {
     take(k_dirty_shape, BufferId::Shapes, shapes);
     take(k_dirty_properties, BufferId::Properties, properties);
     if (with_loads) take(k_dirty_load, BufferId::Loads, loads);
+    take(k_dirty_contacts, BufferId::Starts, std::span<const BodyStart>());
     for (const uint slot : changed)
         dirty[slot] = 0;
     changed.clear();

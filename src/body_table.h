@@ -21,6 +21,8 @@ enum Dirty : std::uint8_t {
     k_dirty_properties = 8,
     k_dirty_load = 16,
     k_dirty_all = 31,
+    k_dirty_contacts =
+        32, ///< none of the body's contacts may last: it stands, or is, otherwise than the last step has left it
 };
 
 struct MassProperties {

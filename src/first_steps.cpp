@@ -7,6 +7,7 @@
 #include "device/kernel_list.h"
 #include "hand_over.h"
 #include "log.h"
+#include "narrow_phase/narrow_phase.h"
 #include "primitives/primitives.h"
 #include "resolution/resolution.h"
 #include "simulation.h"
@@ -53,11 +54,10 @@ void Simulation::begin_kernels(const Population& population) {
     for (const Stage stage : k_stages)
         note(stage, first);
     first.search = Search::None;
-    first.records_last = first.sleeping;
     note(Stage::BroadPhase, first);
-    note(Stage::NarrowPhase, first);
     if (!first.small && !last.hybrid()) list.run({.kernel = weigh_hubs});
     scatter_changed_records(list, BufferId::Poses, 1);
+    forget_movements(list, 1);
     needed_kernels = list.kernels;
     note(Stage::Solve, quickest);
     if (may_have_large_island(quickest)) {

@@ -54,6 +54,7 @@ void hand_over_counters(Device& from, Device& to) {
 void hand_over_bodies(Device& from, Device& to, const StepPlan& plan) {
     lend(from, to, BufferId::Poses, plan.body_count);
     lend(from, to, BufferId::Velocities, plan.body_count);
+    lend(from, to, BufferId::Starts, plan.body_count);
 }
 
 void hand_over_manifolds(Device& from, Device& to) {
@@ -85,7 +86,7 @@ void hand_over_drawn(Device& from, Device& to, StateCounts counts) {
 }
 
 void hand_over_state(Device& from, Device& to, StateCounts counts) {
-    static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 14,
+    static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 15,
                   "another buffer survives the step");
     hand_over_drawn(from, to, counts);
     copy(from, to, counts.slots,

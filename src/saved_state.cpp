@@ -11,7 +11,7 @@
 
 namespace talus::engine {
 
-static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 14,
+static_assert(std::ranges::count(k_buffers, Role::State, &BufferInfo::role) == 15,
               "another buffer survives the step: snapshots have to hold it too");
 
 std::size_t SavedState::bytes() const {
@@ -61,6 +61,8 @@ SavedState save_state(Simulation& simulation, const BodyTable& table, const Sett
     saved.next_impulses = std::move(contacts.next_impulses);
     saved.starts = std::move(contacts.starts);
     saved.starts.resize(table.slot_count());
+    for (const uint slot : table.changed_slots())
+        if (table.is_dirty(slot, k_dirty_contacts)) saved.starts[slot] = forget_turn(saved.starts[slot]);
     return saved;
 }
 

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 19;
+constexpr std::uint32_t k_version = 20;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 
@@ -160,6 +160,8 @@ void check(SavedState& state) {
         throw Error("it has not as many points as its manifolds say");
     if (state.separations.size() != state.manifolds.size() || state.next_impulses.size() != state.manifolds.size())
         throw Error("it has not as many records of separations or impulses as manifolds");
+    if (!std::ranges::all_of(state.separations, [](const Separations& each) { return each.way >= 0.0f; }))
+        throw Error("a contact has lasted for a way that none can have");
     if (report.pairs != state.manifolds.size() || report.manifolds != touching || report.contacts != solved_count ||
         (!state.contact_states.empty() && state.contact_states.size() != report.pairs) ||
         state.starts.size() != slots || (!state.rests.empty() && state.rests.size() != slots) ||

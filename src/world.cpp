@@ -236,6 +236,7 @@ void World::set_pose(BodyId id, const Pose& pose) {
     const uint slot = impl_->slot_of(id, "set_pose");
     check_pose(pose, body_of_call("set_pose", id));
     impl_->thaw(slot);
+    impl_->touch(slot, k_dirty_contacts);
     impl_->table.poses[slot] = placed_at(pose);
 }
 
@@ -348,7 +349,7 @@ Material World::material(BodyId id) const {
 void World::set_material(BodyId id, const Material& material) {
     const uint slot = impl_->slot_of(id, "set_material");
     check_material(material, body_of_call("set_material", id));
-    impl_->touch(slot, k_dirty_properties);
+    impl_->touch(slot, k_dirty_properties | k_dirty_contacts);
     BodyTable& table = impl_->table;
     BodyProperties& properties = table.properties[slot];
     table.bouncing_count += (material.restitution > 0.0f) - (properties.restitution > 0.0f);
@@ -363,7 +364,7 @@ bool World::is_sensor(BodyId id) const {
 
 void World::set_sensor(BodyId id, bool wanted) {
     const uint slot = impl_->slot_of(id, "set_sensor");
-    impl_->touch(slot, k_dirty_shape);
+    impl_->touch(slot, k_dirty_shape | k_dirty_contacts);
     impl_->table.set_sensor(slot, wanted);
 }
 

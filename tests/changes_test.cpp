@@ -166,14 +166,16 @@ TEST(BodyTables, give_each_changed_record_once_and_in_order) {
     EXPECT_TRUE(table.take_changes(true).empty());
     const std::vector<uint> moved{39, 0, 7, 6, 8, 10, 38, 20}, pushed{8, 9, 7, 39, 21};
     for (const uint slot : moved)
-        table.mark(slot, engine::k_dirty_pose);
+        table.mark(slot, engine::k_dirty_pose | engine::k_dirty_contacts);
     for (const uint slot : pushed)
         table.mark(slot, engine::k_dirty_velocity | engine::k_dirty_load);
     const engine::BodyChanges second = table.take_changes(true);
     EXPECT_EQ(slots_of(second, BufferId::Poses), (std::vector<uint>{0, 6, 7, 8, 10, 20, 38, 39}));
     EXPECT_EQ(slots_of(second, BufferId::Velocities), (std::vector<uint>{7, 8, 9, 21, 39}));
     EXPECT_EQ(slots_of(second, BufferId::Loads), (std::vector<uint>{7, 8, 9, 21, 39}));
-    EXPECT_EQ(second.size(), 3u);
+    EXPECT_EQ(slots_of(second, BufferId::Starts), slots_of(second, BufferId::Poses));
+    EXPECT_TRUE(second.back().records.empty()) << "the slots say it all";
+    EXPECT_EQ(second.size(), 4u);
     const engine::RecordChanges& poses = second.front();
     ASSERT_EQ(poses.records.size(), moved.size() * sizeof(engine::BodyPose));
     for (std::size_t i = 0; i < poses.slots.size(); ++i) {

@@ -269,7 +269,7 @@ TEST_P(MultirateIslands, a_heap_of_light_and_heavy_boxes_has_the_same_bits) {
     }
     EXPECT_GT(multirate_steps, 5u);
     EXPECT_GT(most_fast, 50u);
-    EXPECT_GT(most_with_fewest, 100u);
+    EXPECT_GT(most_with_fewest, 50u);
 }
 
 /// By its own load only the lower contacts of a tower would have the most, and it would lean.

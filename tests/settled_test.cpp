@@ -54,25 +54,41 @@ TEST_P(Settled, contacts_are_not_written_again) {
         EXPECT_EQ(std::memcmp(now.data(), before.data(), now.size() * sizeof now[0]), 0) << i;
     }
     if (!on_two_devices()) {
-        EXPECT_EQ(run.counter(engine::k_counter_unsettled_pairs), 0u);
+        EXPECT_EQ(run.counter(engine::k_counter_pairs_to_collide), 0u);
     }
     run.simulation.search_anew(); // pairs get new places
     run.step();
     EXPECT_EQ(run.counter(engine::k_counter_sleeping_bodies), k_side * k_side);
     run.step();
-    if (!on_two_devices()) {
-        EXPECT_GT(run.counter(engine::k_counter_unsettled_pairs), 1000u)
-            << "their contacts of two steps ago lie elsewhere";
-    }
     run.step();
     const auto by_bodies = [](const engine::Manifold& a, const engine::Manifold& b) {
         return std::pair{a.body_a, a.body_b} < std::pair{b.body_a, b.body_b};
     };
     std::vector<engine::Manifold> expected = before, now = run.manifolds();
-    std::ranges::sort(expected, by_bodies);
-    std::ranges::sort(now, by_bodies);
+    for (std::vector<engine::Manifold>* each : {&expected, &now}) {
+        std::ranges::sort(*each, by_bodies);
+        for (engine::Manifold& manifold : *each) // a search forgets how far apart bodies are
+            if (manifold.point_count == 0) manifold.weights = 0.0f;
+    }
     ASSERT_EQ(now.size(), expected.size());
     EXPECT_EQ(std::memcmp(now.data(), expected.data(), now.size() * sizeof now[0]), 0);
+}
+
+TEST_P(Settled, contacts_lie_where_they_were_two_steps_ago) {
+    if (on_two_devices()) return;
+    EngineRun run(options_on(GetParam()), pavement(), with_sleep_after(0.1f));
+    run.step(60);
+    ASSERT_EQ(run.counter(engine::k_counter_sleeping_bodies), k_side * k_side);
+    std::vector<engine::Manifold> marked = run.manifolds();
+    const float friction = marked[0].friction, mark = 0.123f;
+    marked[0].friction = mark; // in one of the two places; nothing sets it right as long as it is left alone
+    run.simulation.write(BufferId::OldManifolds, 0, std::span<const engine::Manifold>(marked));
+    run.step();
+    EXPECT_EQ(run.manifolds()[0].friction, friction);
+    run.step();
+    EXPECT_EQ(run.manifolds()[0].friction, mark);
+    run.step();
+    EXPECT_EQ(run.manifolds()[0].friction, friction);
 }
 
 TEST_P(Settled, no_graph_is_made_while_nothing_is_awake) {

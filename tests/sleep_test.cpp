@@ -119,7 +119,9 @@ TEST_P(Sleep, a_stack_falls_asleep_as_a_whole_and_stays_where_it_is) {
         for (const ContactPoint& point : contact.points)
             impulse += point.normal_impulse;
         const float load = static_cast<float>(3 - i) * k_box_weight / 60.0f;
-        EXPECT_NEAR(impulse, load, 0.02f * load) << i;
+        // What is kept is of the last of 128 sub-steps, in which the last bit of a position is some hundredths of a
+        // load.
+        EXPECT_NEAR(impulse, load, 0.05f * load) << i;
         ++i;
     }
 }

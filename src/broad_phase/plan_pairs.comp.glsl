@@ -72,11 +72,10 @@ void main()
     counters[k_counter_report_count] = 0u;
     counters[k_counter_sleeping_bodies] = 0u;
     counters[k_counter_launched_bodies] = 0u;
-    counters[k_counter_unsettled_pairs] = 0u;
+    counters[k_counter_pairs_to_collide] = 0u;
     counters[k_counter_awake] = 0u;
     arrivals[0] = 0u; // of the first launch whose groups wait for each other
     dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
-    dispatches[k_dispatch_unsettled_pairs] = groups_for(0u, k_group_size);
     bool looks_up = other_pairs || args.w == 1u;
     dispatches[k_dispatch_table] = groups_for(looks_up ? parameters.table_size : 0u, k_group_size);
     dispatches[k_dispatch_old_pairs] = groups_for(looks_up ? counters[k_counter_old_pair_count] : 0u, k_group_size);

@@ -61,10 +61,9 @@ static void plan_pairs_on_cpu(CpuState& state, const Launch& launch) {
         counters[counter] = 0;
     counters[k_counter_sleeping_bodies] = 0;
     counters[k_counter_launched_bodies] = 0;
-    counters[k_counter_unsettled_pairs] = counters[k_counter_awake] = 0;
+    counters[k_counter_pairs_to_collide] = counters[k_counter_awake] = 0;
     state.arrivals[0] = 0;
     state.dispatches[k_dispatch_pairs] = groups_for(pair_count, k_group_size);
-    state.dispatches[k_dispatch_unsettled_pairs] = groups_for(0, k_group_size);
     const bool looks_up = other_pairs || launch.args[3] == 1;
     state.dispatches[k_dispatch_table] = groups_for(looks_up ? state.parameters.table_size : 0, k_group_size);
     state.dispatches[k_dispatch_old_pairs] =

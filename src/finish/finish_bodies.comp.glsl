@@ -16,6 +16,7 @@
 #include "resolution/contact_frame.shared.glsl"
 #include "resolution/island.shared.glsl"
 #include "resolution/balance.shared.glsl"
+#include "finish/body_start.shared.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -56,8 +57,8 @@ void main()
     if (body >= parameters.body_count) return;
     BodyPose pose = unpack(poses[body]);
     bool is_kept = args.y == 1u && is_asleep(pose) && is_settled(pose);
-    if (!is_kept) starts[body] = pack(start_at(pose));
     if (is_asleep(pose)) {
+        if (!is_kept) starts[body] = pack(start_at(pose, pose));
         bool is_weighed = args.x == 1u && (island_fill[body] & k_pressed) != 0u;
         if (is_weighed && !is_in_balance(body) && (pose.flags & k_body_frozen) == 0u) {
             rests[body] = pack(with_calm(unpack(rests[body]), 0u));
@@ -73,17 +74,19 @@ void main()
     if (args.z == 1u && (moves || disturbed)) loads[body] = pack(no_load());
     pose.flags &= ~k_body_disturbed;
     if (!moves || (pose.flags & k_body_frozen) != 0u) {
+        starts[body] = pack(start_at(pose, pose));
         if (disturbed) poses[body] = pack(pose);
         bool may_sleep = args.x == 1u && is_movable(unpack(shapes[body])); // what is frozen rests
         if (may_sleep) rests[body] = pack(with_calm(unpack(rests[body]), parameters.rest_steps));
         return;
     }
-    BodyPose moved = apply_delta(pose, unpack(deltas[body]));
+    BodyDelta delta = unpack(deltas[body]);
+    BodyPose moved = apply_delta(pose, delta);
     bool may_rest = parameters.rest_steps > 0u && is_movable(unpack(shapes[body]));
     if (may_rest) {
         bool touched = args.x == 1u && (island_fill[body] & k_touched) != 0u;
         NextRest next =
-            next_rest(pose, moved, unpack(deltas[body]), unpack(rests[body]), touched, unpack(shapes[body]), parameters);
+            next_rest(pose, moved, delta, unpack(rests[body]), touched, unpack(shapes[body]), parameters);
         moved.flags = next.flags;
         rests[body] = pack(next.rest);
     } else {
@@ -91,10 +94,12 @@ void main()
     }
     BodyVelocity velocity = unpack(velocities[body]);
     if (is_finite_motion(moved, velocity)) {
+        starts[body] = pack(start_at(pose, moved));
         poses[body] = pack(moved);
         BodyVelocity limited = limit_speeds(velocity, parameters);
         if (limited != velocity) velocities[body] = pack(limited);
     } else {
+        starts[body] = pack(start_at(pose, pose));
         pose.flags |= k_body_frozen;
         poses[body] = pack(pose);
         velocities[body] = pack(frozen_velocity());

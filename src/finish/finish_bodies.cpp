@@ -29,7 +29,7 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
     };
     state.parallel(p.body_count, [&](uint body) {
         BodyPose& pose = state.poses[body];
-        state.starts[body] = start_at(pose);
+        state.starts[body] = start_at(pose, pose);
         if (is_asleep(pose)) {
             if (!is_noted(body, k_pressed)) return;
             if (!is_in_balance(state, body) && (pose.flags & k_body_frozen) == 0) {
@@ -58,6 +58,7 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
             moved.flags = wake_flags(moved.flags);
         }
         if (is_finite_motion(moved, state.velocities[body])) {
+            state.starts[body] = start_at(pose, moved);
             pose = moved;
             BodyVelocity& velocity = state.velocities[body];
             velocity = limit_speeds(velocity, p);

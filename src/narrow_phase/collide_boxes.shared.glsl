@@ -375,5 +375,6 @@ inline ContactGeometry collide_boxes(BoxPair p, Carriers carriers, float max_sep
         if (any_lane(is_at_edges)) g = choose_active(is_at_edges, contact_at_edges(p, query), g);
         g.separation = choose_active(is_near, query.separation, g.separation);
     }
+    g.separations[0] = choose(g.count == 0u, query.separation, g.separations[0]);
     return g;
 }

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a candidate pair: its manifold, with the impulses of the last step (thesis, section 3.3). Of a pair in
-// which a body sleeps and nothing moves it is the last step's.
-// args.x: 1 where pairs are listed, as all others have their contacts already (list_unsettled_pairs).
-// Reads: Counters, Pairs, UnsettledPairs, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds, OldManifoldPoints,
-// OldPointImpulses; of a pair that sleeps OldPointSeparations.
-// Writes: Manifolds, one a pair, with point_count 0 where the two do not touch; PointImpulses; where they touch or sleep
-// ManifoldPoints and PointSeparations; Counters, where two bodies touch that did not in the last step, or touch no longer, by which the
-// constraint graph is another one, and where they touch at fewer or more points.
-// Needs: barriers after plan_pairs and fill_pair_table.
+// One invocation is a pair whose contact does not last: its manifold, with the impulses of the last step (thesis, section 3.3).
+// Reads: Counters, Pairs, PairsToCollide, Poses, Velocities, Shapes, Properties, PairTable, OldManifolds, OldManifoldPoints,
+// OldPointImpulses.
+// Writes: Manifolds, with point_count 0 where the two do not touch; PointImpulses; where they touch ManifoldPoints and PointSeparations;
+// Counters, where two bodies touch that did not in the last step, or touch no longer, by which the constraint graph is another one, and
+// where they touch at fewer or more points.
+// Needs: a barrier after renew_contacts.
 // Overflow: none.
 #include "state/math.shared.glsl"
 #include "broad_phase/aabb.shared.glsl"
 #include "broad_phase/oriented_box.shared.glsl"
-#include "resolution/sleep.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/load.shared.glsl"
 #include "resolution/contact_frame.shared.glsl"
@@ -21,15 +18,18 @@
 #include "narrow_phase/box_axes.shared.glsl"
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
+#include "narrow_phase/collide_shapes.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
 #include "narrow_phase/look_ahead.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"
+#include "finish/body_start.shared.glsl"
+#include "narrow_phase/lasting_contact.shared.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Pairs { Pair pairs[]; };
-layout(std430) readonly buffer UnsettledPairs { uint unsettled_pairs[]; };
+layout(std430) readonly buffer PairsToCollide { uint pairs_to_collide[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
@@ -37,15 +37,14 @@ layout(std430) readonly buffer Properties { BodyPropertiesCells properties[]; };
 layout(std430) readonly buffer PairTable { uint pair_table[]; };
 layout(std430) readonly buffer OldManifolds { ManifoldCells old_manifolds[]; };
 layout(std430) readonly buffer OldManifoldPoints { ManifoldPointCells old_manifold_points[]; };
-layout(std430) readonly buffer OldPointSeparations { SeparationsCells old_point_separations[]; };
 layout(std430) readonly buffer OldPointImpulses { NormalImpulsesCells old_point_impulses[]; };
 layout(std430) writeonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) writeonly buffer ManifoldPoints { ManifoldPointCells manifold_points[]; };
 layout(std430) writeonly buffer PointSeparations { SeparationsCells point_separations[]; };
 layout(std430) writeonly buffer PointImpulses { NormalImpulsesCells point_impulses[]; };
 
-#include "broad_phase/box_now.glsl"
 #include "narrow_phase/find_old_manifold.glsl"
+#include "narrow_phase/old_contact.glsl"
 
 ManifoldPoint old_point(uint old_index, uint i) { return unpack(old_manifold_points[4u * old_index + i]); }
 
@@ -76,93 +75,15 @@ OldPoints read_old_points(uint old_index)
     return points;
 }
 
-// Of most bodies that sleep nothing else is loaded.
-bool stays(uint body, BodyPose pose)
-{
-    if (is_asleep(pose)) return true;
-    return is_left_alone(pose, unpack(velocities[body]), unpack(shapes[body]));
-}
-
-bool sleeps(uint body_a, uint body_b)
-{
-    BodyPose pose_a = unpack(poses[body_a]);
-    BodyPose pose_b = unpack(poses[body_b]);
-    if (!is_asleep(pose_a) && !is_asleep(pose_b)) return false;
-    return stays(body_a, pose_a) && stays(body_b, pose_b);
-}
-
-void put_impulses(uint pair_index, vec4 normal)
-{
-    NormalImpulses impulses;
-    impulses.normal = normal;
-    point_impulses[pair_index] = pack(impulses);
-}
-
-void put_point(uint pair_index, uint i, uint count, vec3 anchor, uint feature)
-{
-    if (i < count) manifold_points[4u * pair_index + i] = pack(make_point(anchor, feature));
-}
-
-void put_none(uint pair_index, Pair pair)
-{
-    manifolds[pair_index] = pack(no_manifold(pair));
-    put_impulses(pair_index, vec4(0.0));
-}
-
-void keep_manifold(uint pair_index, Pair pair, uint old_index)
-{
-    if (old_index == k_none) { // they were apart
-        put_none(pair_index, pair);
-        return;
-    }
-    manifolds[pair_index] = old_manifolds[old_index];
-    point_separations[pair_index] = old_point_separations[old_index];
-    point_impulses[pair_index] = old_point_impulses[old_index];
-    uint count = unpack(old_manifolds[old_index]).point_count;
-    for (uint i = 0u; i < 4u; ++i) {
-        if (i < count) manifold_points[4u * pair_index + i] = old_manifold_points[4u * old_index + i];
-    }
-}
-
-// Pairs that have been added come behind those of the last step.
-bool was_listed(uint pair_index) { return pair_index < counters[k_counter_old_pair_count]; }
-
-uint old_manifold_of(uint pair_index, Pair pair)
-{
-    if (counters[k_counter_pairs_changed] != 0u) return find_old_manifold(pair.body_a, pair.body_b);
-    return was_listed(pair_index) && unpack(old_manifolds[pair_index]).point_count > 0u ? pair_index : k_none;
-}
-
-void compare_with_last(uint pair_index, Manifold manifold)
-{
-    if (counters[k_counter_pairs_changed] != 0u) return;
-    Manifold old = unpack(old_manifolds[pair_index]);
-    if ((was_listed(pair_index) && is_active(old)) != is_active(manifold))
-        counters[k_counter_graph_due] = 1u;
-    else if (is_active(manifold) && manifold.point_count != old.point_count)
-        atomicAdd(counters[k_counter_contact_count], manifold.point_count - old.point_count);
-}
-
 void main()
 {
-    uint pair_index = item_index();
-    if (pair_index >= counters[args.x == 1u ? k_counter_unsettled_pairs : k_counter_pair_count]) return;
-    if (args.x == 1u) pair_index = unsettled_pairs[pair_index];
+    if (item_index() >= counters[k_counter_pairs_to_collide]) return;
+    uint listed = pairs_to_collide[item_index()];
+    uint pair_index = listed & ~k_had_contact;
     Pair pair = pairs[pair_index];
-    if (parameters.rest_steps > 0u && sleeps(pair.body_a, pair.body_b)) {
-        keep_manifold(pair_index, pair, old_manifold_of(pair_index, pair));
-        return;
-    }
-    // The search saw boxes with a skin.
-    Aabb box_a = compute_aabb(box_now(pair.body_a));
-    Aabb box_b = compute_aabb(box_now(pair.body_b));
     uint old_index = k_none;
-    if (is_still_candidate(box_a, box_b)) old_index = old_manifold_of(pair_index, pair);
-    if (old_index == k_none && !is_candidate(box_a, box_b)) {
-        put_none(pair_index, pair);
-        compare_with_last(pair_index, no_manifold(pair));
-        return;
-    }
+    if ((listed & k_had_contact) != 0u)
+        old_index = has_other_pairs() ? find_old_manifold(pair.body_a, pair.body_b) : pair_index;
     Carriers carriers = no_carriers();
     if (old_index != k_none) carriers = carriers_of(read_old_points(old_index));
 
@@ -175,10 +96,10 @@ void main()
     ContactGeometry g =
         collide_moving_shapes(pose_a, shape_a, pose_b, shape_b, motion, carriers, max_separation);
     bool sensed = is_sensed(shape_a, shape_b);
-    if (sensed && !can_meet(shape_a, shape_b)) g.count = 0u;
+    if (sensed && !can_meet(shape_a, shape_b)) g = no_contact();
     if (g.count == 0u) {
-        put_none(pair_index, pair);
-        compare_with_last(pair_index, no_manifold(pair));
+        put_none(pair_index, pair, gap_without_points(g));
+        compare_with_last(pair_index, no_manifold(pair, 0.0));
         return;
     }
 

@@ -16,7 +16,7 @@ struct ContactGeometry {
     // Points midway between the two surfaces, from A's centre in world axes (m). The midpoint serves both bodies, so
     // that a normal and a friction impulse change no angular momentum; the thesis takes the reference face.
     vec3 points[4];
-    float separations[4]; // m, negative = overlap
+    float separations[4]; // m, negative = overlap; without points the first is how far apart the bodies are at least, if that is known
     uint features[4];     // which vertex or edges made the point, stable while they stay the same
 };
 

@@ -1,36 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From two bodies to a manifold: the table of shape pairs, the material, and the impulses of the last step.
+// From the geometry of a contact to a manifold: the material, and the impulses of the last step.
 // Needs resolution/contact_frame.shared.glsl and resolution/load.shared.glsl.
-
-// One entry a pair of shapes. A new shape adds its entries here.
-inline ContactGeometry collide_shapes(BodyPose pose_a, BodyShape shape_a, BodyPose pose_b, BodyShape shape_b,
-                                      Carriers carriers, float max_separation)
-{
-    precise vec3 offset = pose_b.position - pose_a.position;
-    uint type_a = shape_a.type & 255u;
-    uint type_b = shape_b.type & 255u;
-    ContactGeometry g;
-    if (type_a == k_shape_box && type_b == k_shape_box) {
-        g = collide_boxes(make_box_pair(pose_a, shape_a, pose_b, shape_b), carriers, max_separation);
-    } else if (type_a == k_shape_box || type_b == k_shape_box) {
-        vec4 rotation_of_box = pose_a.rotation;
-        BodyShape box = shape_a;
-        BodyShape sphere = shape_b;
-        vec3 from_box = offset;
-        if (type_a != k_shape_box) {
-            rotation_of_box = pose_b.rotation;
-            box = shape_b;
-            sphere = shape_a;
-            from_box = vec3(-offset.x, -offset.y, -offset.z);
-        }
-        g = collide_box_sphere(rotation_axes(rotation_of_box), box.half_extents, sphere.half_extents.x, from_box,
-                               max_separation);
-        if (type_a != k_shape_box) g = swap_bodies(g, from_box);
-    } else {
-        g = collide_spheres(shape_a.half_extents.x, shape_b.half_extents.x, offset, max_separation);
-    }
-    return g;
-}
 
 // Where two bodies ask for different rules, the lower number wins.
 inline float combine(float a, float b, uint rule_a, uint rule_b)
@@ -210,7 +180,7 @@ inline Separations make_separations(ContactGeometry g)
         vec4(choose(0u < g.count, g.separations[0], 0.0f), choose(1u < g.count, g.separations[1], 0.0f),
              choose(2u < g.count, g.separations[2], 0.0f), choose(3u < g.count, g.separations[3], 0.0f));
     separations.shift = g.shift;
-    separations.reserved = 0.0f;
+    separations.way = 0.0f;
     return separations;
 }
 
@@ -241,8 +211,8 @@ inline Manifold make_manifold(Pair pair, ContactGeometry g, BodyProperties a, Bo
     return manifold;
 }
 
-// Of two bodies that are apart.
-inline Manifold no_manifold(Pair pair)
+// Of two bodies that are apart, by `gap` at least (m); 0: it is not known.
+inline Manifold no_manifold(Pair pair, float gap)
 {
     Manifold manifold;
     manifold.body_a = pair.body_a;
@@ -256,7 +226,7 @@ inline Manifold no_manifold(Pair pair)
     manifold.tangent_impulse_1 = 0.0f;
     manifold.tangent_impulse_2 = 0.0f;
     manifold.twist_impulse = 0.0f;
-    manifold.weights = 0.0f;
+    manifold.weights = gap;
     manifold.lasting_weights = 0.0f;
     manifold.demand = 0u;
     return manifold;

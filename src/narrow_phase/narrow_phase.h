@@ -14,9 +14,13 @@ void narrow_phase(Device&, const StepPlan&);
 /// Fills PairTable from OldManifolds, which narrow_phase does too.
 void index_old_manifolds(Device&);
 
+/// Of the bodies that the first `count` words of Changes name: none of their contacts lasts.
+void forget_movements(Device&, uint count);
+
 extern const Kernel clear_pair_table;
 extern const Kernel fill_pair_table;
-extern const Kernel list_unsettled_pairs;
+extern const Kernel forget_turns;
+extern const Kernel renew_contacts;
 extern const Kernel collide_pairs;
 
 } // namespace talus::engine

@@ -297,14 +297,6 @@ inline bool is_finite_motion(BodyPose pose, BodyVelocity velocity)
            is_finite3(velocity.angular);
 }
 
-inline BodyStart start_at(BodyPose pose)
-{
-    BodyStart start;
-    start.position = pose.position;
-    start.reserved = 0.0f;
-    return start;
-}
-
 inline bool is_loaded(BodyLoad load)
 {
     return load.force.x != 0.0f || load.force.y != 0.0f || load.force.z != 0.0f || load.torque.x != 0.0f ||

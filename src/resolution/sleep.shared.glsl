@@ -31,6 +31,14 @@ inline bool is_left_alone(BodyPose pose, BodyVelocity velocity, BodyShape shape)
     return (pose.flags & k_body_disturbed) == 0u && (!is_mover(shape) || is_still(velocity));
 }
 
+// Whether two bodies are, of which one sleeps.
+inline bool sleep_on(BodyPose pose_a, BodyVelocity velocity_a, BodyShape shape_a, BodyPose pose_b, BodyVelocity velocity_b,
+                     BodyShape shape_b)
+{
+    return (is_asleep(pose_a) || is_asleep(pose_b)) && is_left_alone(pose_a, velocity_a, shape_a) &&
+           is_left_alone(pose_b, velocity_b, shape_b);
+}
+
 // Whether it was so in the step before that, too.
 inline bool is_settled(BodyPose pose) { return (pose.flags & (k_body_settled | k_body_disturbed)) == k_body_settled; }
 

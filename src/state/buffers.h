@@ -26,7 +26,7 @@ namespace talus::engine {
     X(Properties, properties, BodyProperties, "fffffffffuuu", State)                                                   \
     X(Loads, loads, BodyLoad, "fffuffff", State)                                                                       \
     X(Rests, rests, BodyRest, "fffuffff", State)                                                                       \
-    X(Starts, starts, BodyStart, "ffff", Result)                                                                       \
+    X(Starts, starts, BodyStart, "fffu", State)                                                                        \
     X(Changes, changes, uint, "u", Scratch)                                                                            \
     /* broad phase */                                                                                                  \
     X(OrientedBoxes, oriented_boxes, OrientedBox, "fffffffffffu", State)                                               \

@@ -6,6 +6,7 @@ const uint k_none = 0xffffffffu; // no such index
 // Limits of a world
 const uint k_most_bodies = 1u << 24;
 const uint k_most_pairs = 1u << 28; // four points each still have 32-bit indices
+const uint k_had_contact = 1u << 31; // in PairsToCollide: the pair had one in the last step, and may have it still
 
 // BodyShape::type
 const uint k_shape_box = 0u;
@@ -117,7 +118,7 @@ const uint k_counter_wanted_pairs = 38u; // that the list would have with those 
 const uint k_counter_largest_island = 39u; // in a small world: manifolds of the island that has most
 const uint k_counter_listed_pairs = 40u; // of what the constraint graph is made where parts of islands sleep
 const uint k_counter_same_list = 41u; // 1 where the last step had the pairs of the one before
-const uint k_counter_unsettled_pairs = 42u; // whose contacts are not there from two steps ago, where that is asked
+const uint k_counter_pairs_to_collide = 42u; // whose contacts do not last
 const uint k_counter_awake = 43u; // 1 where a body is awake, or moves as its caller says; only while islands may sleep
 const uint k_counter_all_strays = 44u; // since the last search of all
 const uint k_counter_searched_tree = 45u; // 1 where strays of this step searched the tree
@@ -172,8 +173,7 @@ const uint k_dispatch_graph_pairs = k_dispatch_report_ends + 1u; // groups of 64
 const uint k_dispatch_graph_tiles = k_dispatch_graph_pairs + 1u; // sort tiles of them
 const uint k_dispatch_graph_counts = k_dispatch_graph_tiles + 1u; // groups of k_count_group of them
 const uint k_dispatch_table = k_dispatch_graph_counts + 1u; // groups of 64 slots of PairTable, where pairs have to be looked up
-const uint k_dispatch_unsettled_pairs = k_dispatch_table + 1u; // groups of 64 pairs
-const uint k_dispatch_count = k_dispatch_unsettled_pairs + 1u;
+const uint k_dispatch_count = k_dispatch_table + 1u;
 
 const uint k_block_records = 32u; // see device/gl/record_blocks.h
 const uint k_group_size = 64u;   // invocations a group of kernels that treat one item each

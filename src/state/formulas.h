@@ -42,10 +42,15 @@ namespace talus::engine {
 #include "narrow_phase/box_axes.shared.glsl"
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
+
+#include "narrow_phase/collide_shapes.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"
 
 #include "narrow_phase/look_ahead.shared.glsl"
+
+#include "finish/body_start.shared.glsl"
+#include "narrow_phase/lasting_contact.shared.glsl"
 
 #include "resolution/body.shared.glsl"
 #include "resolution/colouring.shared.glsl"

@@ -51,7 +51,7 @@ struct BodyLoad {
 // 16 bytes. Where the body was at the start of the step: the step's contact points are anchored there.
 struct BodyStart {
     vec3 position; // m, world
-    float reserved;
+    uint turn;     // by which the step has turned it: see pack_turn
 };
 
 // 32 bytes. Where the body was when its rest began. Kept while islands may sleep.
@@ -137,7 +137,8 @@ struct Manifold {
     float tangent_impulse_1; // N s, over the step; friction of all points together
     float tangent_impulse_2;
     float twist_impulse; // N m s, about the normal
-    float weights;       // of the lighter body, that press the two together: a mean over some steps
+    float weights;       // of the lighter body, that press the two together: a mean over some steps. Without points: m, how far apart
+                         // they are at least, see lasting_contact.shared.glsl
     float lasting_weights; // those that last, see next_lasting_load
     uint demand;         // sub-steps that its load asks for, and how it came to that: see resolution/load.shared.glsl
 };
@@ -149,12 +150,11 @@ struct ManifoldPoint {
     uint feature_id;
 };
 
-// 32 bytes, one a pair: the rest of what is known of its points. The next step reads it only of a pair that sleeps. Of a pair
-// without points nobody has written it.
+// 32 bytes, one a pair: the rest of what is known of its points. Of a pair without points nobody has written it.
 struct Separations {
     vec4 separation; // m of each point, negative = overlap; 0 where there is none
     vec3 shift;      // m: B is this far on, as seen from A, where the bodies meet
-    float reserved;
+    float way;       // m, by which the bodies have moved on each other since they were collided: see lasting_contact.shared.glsl
 };
 
 // 16 bytes, one a pair: what its points start from in the next step. Not in the points, as the solver writes in an order of its
