@@ -75,7 +75,7 @@ struct GlBuffers {
     /// 32 bytes a body: vec3 position (m), uint flags, of which bit 2 is set while the body sleeps, vec4 rotation (x,
     /// y, z, w).
     std::uint32_t poses = 0;
-    /// 16 bytes a body: vec3 position (m), float; where the body was at the start of the last step.
+    /// 16 bytes a body: vec3 position (m), uint; where the body was at the start of the last step, and its turn in it.
     std::uint32_t starts = 0;
     /// 16 bytes a body: vec3 half extents (m), uint word with the shape in bits 0–7 (0 box, 1 sphere), the body's kind
     /// in bits 8–15 (0 static, 1 rigid, 2 kinematic, 255 no body here), and bit 16 set for a sensor.

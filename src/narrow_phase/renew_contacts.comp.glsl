@@ -90,7 +90,7 @@ void keep(uint pair_index, OldContact old)
     put_point(pair_index, 3u, count, old.point_3.anchor, old.point_3.feature_id);
 }
 
-// How the two bodies have moved since it was found, and how they are about to move.
+// How two bodies have moved in the last step, and how they are about to move.
 struct PairMovement {
     Movement a;
     Movement b;
