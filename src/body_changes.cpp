@@ -33,7 +33,7 @@ void apply_changes(Device& device, const BodyChanges& changes) {
             device.write(BufferId::Changes, count * sizeof(uint),
                          std::span(change.records).subspan(first * stride, count * stride));
             if (forgets)
-                forget_movements(device, static_cast<uint>(count));
+                forget_changed_turns(device, static_cast<uint>(count));
             else
                 scatter_changed_records(device, change.buffer, static_cast<uint>(count));
         }

@@ -14,7 +14,7 @@ namespace talus::engine {
 struct RecordChanges {
     BufferId buffer;
     std::vector<uint> slots;        ///< each once
-    std::vector<std::byte> records; ///< none of Starts: what these say of the last step's movement is forgotten
+    std::vector<std::byte> records; ///< none of Starts: the turns that these tell are forgotten
 };
 
 using BodyChanges = std::vector<RecordChanges>;

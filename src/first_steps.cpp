@@ -57,7 +57,7 @@ void Simulation::begin_kernels(const Population& population) {
     note(Stage::BroadPhase, first);
     if (!first.small && !last.hybrid()) list.run({.kernel = weigh_hubs});
     scatter_changed_records(list, BufferId::Poses, 1);
-    forget_movements(list, 1);
+    forget_changed_turns(list, 1);
     needed_kernels = list.kernels;
     note(Stage::Solve, quickest);
     if (may_have_large_island(quickest)) {

@@ -256,7 +256,7 @@ TEST_P(MultirateIslands, a_heap_of_light_and_heavy_boxes_has_the_same_bits) {
         each->least_multirate = 700;
     }
     uint most_fast = 0, most_with_fewest = 0, multirate_steps = 0;
-    for (uint step = 0; step < 200; ++step) {
+    for (uint step = 0; step < 260; ++step) {
         one.step_persistently(step % 2 == 0);
         expected.step_in_many_launches();
         ASSERT_TRUE(one.motion() == expected.motion()) << step;
@@ -269,7 +269,7 @@ TEST_P(MultirateIslands, a_heap_of_light_and_heavy_boxes_has_the_same_bits) {
     }
     EXPECT_GT(multirate_steps, 5u);
     EXPECT_GT(most_fast, 50u);
-    EXPECT_GT(most_with_fewest, 50u);
+    EXPECT_GT(most_with_fewest, 100u);
 }
 
 /// By its own load only the lower contacts of a tower would have the most, and it would lean.

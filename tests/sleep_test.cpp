@@ -126,6 +126,25 @@ TEST_P(Sleep, a_stack_falls_asleep_as_a_whole_and_stays_where_it_is) {
     }
 }
 
+TEST_P(Sleep, a_stack_that_has_settled_keeps_its_loads) {
+    Settings settings = with_sleeping();
+    settings.sleep_time = 2.0f;
+    World world = make_world(settings);
+    world.add(ground());
+    add_stack(world, 0.0f);
+    step_until_asleep(world, 3);
+    world.step(60);
+    ASSERT_EQ(world.contacts().size(), 3u);
+    for (std::size_t i = 0; const Contact& contact : world.contacts()) {
+        float impulse = 0.0f;
+        for (const ContactPoint& point : contact.points)
+            impulse += point.normal_impulse;
+        const float load = static_cast<float>(3 - i) * k_box_weight / 60.0f;
+        EXPECT_NEAR(impulse, load, 0.002f * load) << i;
+        ++i;
+    }
+}
+
 TEST_P(Sleep, keeps_contacts_bit_by_bit_while_other_pairs_come_and_go) {
     World world = make_world(with_sleeping());
     world.add(ground());

@@ -11,7 +11,7 @@ void index_old_manifolds(Device& device) {
     device.run({.kernel = fill_pair_table, .slot = k_dispatch_old_pairs});
 }
 
-void forget_movements(Device& device, uint count) {
+void forget_changed_turns(Device& device, uint count) {
     device.run({.kernel = forget_turns, .items = count, .args = {count}});
 }
 

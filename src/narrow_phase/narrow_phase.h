@@ -15,7 +15,7 @@ void narrow_phase(Device&, const StepPlan&);
 void index_old_manifolds(Device&);
 
 /// Of the bodies that the first `count` words of Changes name: none of their contacts lasts.
-void forget_movements(Device&, uint count);
+void forget_changed_turns(Device&, uint count);
 
 extern const Kernel clear_pair_table;
 extern const Kernel fill_pair_table;

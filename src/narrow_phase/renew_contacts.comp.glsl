@@ -50,7 +50,7 @@ shared uint first_listed;
 
 // Whether the pairs had their places in the list two steps ago. Those of strays may have been added since; but a body of these has moved,
 // and is not settled.
-bool is_old_list() { return counters[k_counter_pairs_changed] == 0u && counters[k_counter_same_list] != 0u; }
+bool is_old_list() { return !has_other_pairs() && counters[k_counter_same_list] != 0u; }
 
 // The last step's contact of the pair, as it lies at its place.
 struct OldContact {
