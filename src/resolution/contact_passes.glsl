@@ -8,6 +8,7 @@
 //     no_hits.glsl
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 //   const bool k_multirate_islands, whether a body may have more sub-steps than a contact of it
+//   void look_early(), called where the bodies of the constraint in hand are known and nothing is made of its record yet
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
 // Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts.
@@ -56,6 +57,8 @@ vec4 base_separation;
 ManifoldRows rows;
 ManifoldImpulses impulses;
 
+void look_early();
+
 // `of_hub`: false where its colour is none for hubs. A constant in each call, so that the compiler leaves out what hubs need.
 void take_constraint(uint index, bool of_hub)
 {
@@ -65,6 +68,7 @@ void take_constraint(uint index, bool of_hub)
     BodyInertia inertia_b = unpack(inertias[c.body_b]);
     body_a = c.body_a;
     body_b = c.body_b;
+    look_early();
     slot_a = slot_of(body_a);
     slot_b = slot_of(body_b);
     counts = c.counts;

@@ -41,6 +41,8 @@ void put_change(uint index, HubChange change)
     hub_changes[index - colour_offsets[k_first_hub_colour]] = change;
 }
 
+void look_early() {}
+
 #include "resolution/contact_passes.glsl"
 
 Substep substep_in_hand(float present_load_speed)

@@ -85,6 +85,8 @@ void put_change(uint index, HubChange change) {}
 bool is_own(BodyInertia inertia) { return true; }
 BodyVelocity load_settled_velocity(uint slot, uint its_traits) { return load_velocity(slot); }
 
+void look_early() {} // velocities are in shared memory
+
 #include "resolution/contact_passes.glsl"
 #include "resolution/body_passes.glsl"
 const bool k_notes_unlike = false;

@@ -264,12 +264,31 @@ void find_earlier(uint tick)
 BodyVelocityCells cells_a; // the velocity as it was at the last look
 BodyVelocityCells cells_b;
 
-// Whether it is the turn of the contact in hand.
-bool is_turn()
+void look()
 {
     cells_a = velocities[body_a];
     cells_b = velocities[body_b];
-    return is_after(cells_a, earlier_a) && is_after(cells_b, earlier_b);
+}
+
+// The last look was in this pass, at the contact in hand, and has not been used.
+bool has_looked = false;
+
+// Most contacts of a heap need not wait: the first look at their bodies is loaded while the rest of their records are. Where a
+// worker has one or two contacts it is others they wait for, and it only takes registers (docs/performance.md).
+void look_early()
+{
+    if (!k_multirate_islands) return;
+    look();
+    has_looked = true;
+}
+
+bool fits_last_look() { return is_after(cells_a, earlier_a) && is_after(cells_b, earlier_b); }
+
+// Whether it is the turn of the contact in hand.
+bool is_turn()
+{
+    look();
+    return fits_last_look();
 }
 
 // Where one group is alone on a device on which invocations must not wait, they meet after each look: renderers in software run them
@@ -282,7 +301,9 @@ uint looks_in_hand; // at the contact in hand
 // for another one. Some drivers end a loop after so many rounds.
 bool wait_for_turn()
 {
-    bool fits = is_turn();
+    bool fits = has_looked && fits_last_look();
+    has_looked = false;
+    if (!fits) fits = is_turn();
     if (is_alone()) return fits;
     bool is_to_look = !fits && looks_again(looks_in_hand);
     while (is_to_look) {
@@ -371,6 +392,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
 {
     wait_for_finish();
     ++passes_in_order;
+    has_looked = false; // what is in hand may have been taken at the end of the pass before
     uint end = first_places[k_first_hub_colour];
     bool all = most_have_substep(tick); // have a part in it, or what is fast
     uint power = all ? 0u : ticks_power(tick);
