@@ -692,5 +692,137 @@ TEST(Lanes, find_near_as_one_at_a_time) {
     }
 }
 
+/// What a pair's contact in the last step becomes in this one.
+struct Renewed {
+    bool lasts = false;
+    Manifold manifold{};
+    Separations separations{};
+    ManifoldPoint points[4]{};
+};
+
+Renewed renewed(const CpuState& state, const LastContact& contact) {
+    const Parameters& p = state.parameters;
+    const auto [body_a, body_b] = state.pairs[contact.pair];
+    const BodyStart &start_a = state.starts[body_a], &start_b = state.starts[body_b];
+    const BodyShape &shape_a = state.shapes[body_a], &shape_b = state.shapes[body_b];
+    const BodyVelocity &velocity_a = state.velocities[body_a], &velocity_b = state.velocities[body_b];
+    const Manifold& old = state.old_manifolds[contact.manifold];
+    const Separations& old_separations = state.old_point_separations[contact.manifold];
+    const ManifoldPoint* const old_points = &state.old_manifold_points[std::size_t{4} * contact.manifold];
+    const Movement a = last_movement(state.poses[body_a], start_a), b = last_movement(state.poses[body_b], start_b);
+    const vec3 offset = offset_at_meeting(start_a.position, start_b.position, vec3(0.0f));
+    const MeetingPoint meeting = meeting_point(old_points[0].anchor, offset, shape_a, shape_b);
+    const float way = way_after(old_separations, way_between(a, b, meeting));
+    Renewed made;
+    made.manifold = lasting_manifold(old, a, b, p);
+    vec4 opening(0.0f);
+    for (uint i = 0; i < old.point_count; ++i) {
+        opening[static_cast<int>(i)] = opening_at(made.manifold.normal, old_points[i].anchor, offset, a, b);
+        made.points[i] = make_point(lasting_anchor(old_points[i].anchor, offset, a, b), old_points[i].feature_id);
+    }
+    made.separations = lasting_separations(old_separations, opening, way, old.point_count);
+    made.lasts = may_last(start_a, shape_a, start_b, shape_b) && is_of_kind_that_lasts(old, old_separations) &&
+                 stays(way, next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, p) &&
+                 is_within_reach(made.separations, old.point_count, motion_between(velocity_a, velocity_b, p), p);
+    return made;
+}
+
+TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
+    const FlushDenormals flush;
+    Items items(4, 0.0f);
+    std::vector<BodyStart> starts;
+    for (uint i = 0; i < Items::k_bodies; ++i) {
+        const float size = i % 8 == 7 ? 1e-4f : 6e-6f; // most have hardly moved
+        const BodyPose before = items.poses[i];
+        items.poses[i].position += items.vector(size);
+        const vec3 turn = items.vector(size);
+        const vec4 change(turn.x, turn.y, turn.z, 1.0f);
+        items.poses[i].rotation = normalise_quaternion(multiply_quaternions(change, before.rotation));
+        starts.push_back(start_at(before, items.poses[i]));
+        items.velocities[i].linear = items.vector(60.0f * size);
+        items.velocities[i].angular = items.vector(60.0f * size);
+        const uint kind = i % 29 == 28 ? k_kind_absent : i % 3 == 0 ? k_kind_static : k_kind_rigid;
+        items.shapes[i].type =
+            (i % 17 == 16 ? k_shape_sphere : k_shape_box) | kind << 8 | (i % 23 == 22 ? k_sensor_bit : 0u);
+        items.shapes[i].half_extents = vec3(0.3f) + items.vector(0.2f);
+    }
+    starts[11] = forget_turn(starts[11]);
+    starts[12].position.x = std::numeric_limits<float>::quiet_NaN();
+
+    constexpr uint k_pairs = 200;
+    std::vector<Pair> pairs;
+    std::vector<Manifold> old_manifolds;
+    std::vector<ManifoldPoint> old_points;
+    std::vector<Separations> old_separations;
+    std::vector<NormalImpulses> old_impulses;
+    std::vector<LastContact> contacts;
+    for (uint i = 0; i < k_pairs; ++i) {
+        pairs.push_back(make_pair(i % Items::k_bodies, (7 * i + 5) % Items::k_bodies));
+        contacts.push_back({i, (i + 3) % k_pairs});
+        const vec3 n = items.vector(1.0f), friction = items.vector(0.3f);
+        const uint count = 1 + i % 4, colour = i % 19 == 0 ? k_inactive_colour : i % 20;
+        old_manifolds.push_back({i, i + 1, count, colour, scale3(n, inverse_sqrt(dot3(n, n))), i % 13 == 0 ? 9 : i % 6,
+                                 0.5f, 0.1f, friction.x, friction.y, friction.z, items.number(1.0f), items.number(1.0f),
+                                 make_demand(8 << i % 3, i % 5, i % 4, 1 + i % 5)});
+        for (uint k = 0; k < 4; ++k) // those that are not there may be anything
+            old_points.push_back({k < count ? items.vector(0.5f) : vec3(NAN), 10 * i + k});
+        old_separations.push_back({items.vector4(i % 11 == 0 ? 0.02f : 0.003f),
+                                   vec3(i % 16 == 15 ? 0.1f : 0.0f, 0.0f, 0.0f), i % 9 == 8 ? 3.6e-4f : 1e-4f});
+        old_impulses.push_back({items.vector4(1.0f)});
+    }
+    CpuState state = items.state();
+    state.parameters.speculative_distance = 0.012f;
+    state.parameters.most_substeps = 16; // fewer than some ask for
+    state.starts = {starts.data(), starts.size()};
+    state.pairs = {pairs.data(), pairs.size()};
+    state.old_manifolds = {old_manifolds.data(), old_manifolds.size()};
+    state.old_manifold_points = {old_points.data(), old_points.size()};
+    state.old_point_separations = {old_separations.data(), old_separations.size()};
+    state.old_point_impulses = {old_impulses.data(), old_impulses.size()};
+    const auto number_lasting = std::ranges::count_if(contacts, [&](const auto& c) { return renewed(state, c).lasts; });
+    ASSERT_GT(number_lasting, 60);
+    ASSERT_LT(number_lasting, k_pairs - 60);
+    for (std::size_t sets = 1; sets <= runnable_sets(); ++sets) {
+        usable_sets = sets;
+        for (uint at_a_time = 1; at_a_time <= 64; at_a_time += 7) { // also such as fill no register
+            const Manifold untouched{k_none, k_none, k_none, k_none, vec3(7.0f), 0, 0, 0, 0, 0, 0, 0, 0, 0};
+            std::vector<Manifold> manifolds(k_pairs, untouched);
+            const ManifoldPoint no_point{vec3(0.0f), 0};
+            std::vector<ManifoldPoint> points(std::size_t{4} * k_pairs, no_point);
+            std::vector<Separations> separations(k_pairs, Separations{vec4(7.0f), vec3(0.0f), 0.0f});
+            std::vector<NormalImpulses> impulses(k_pairs, NormalImpulses{vec4(7.0f)});
+            state.manifolds = {manifolds.data(), manifolds.size()};
+            state.manifold_points = {points.data(), points.size()};
+            state.point_separations = {separations.data(), separations.size()};
+            state.point_impulses = {impulses.data(), impulses.size()};
+            for (uint first = 0; first < k_pairs; first += at_a_time) {
+                const uint count = min(at_a_time, k_pairs - first);
+                const std::uint64_t lasting = renew_last_contacts(state, &contacts[first], count);
+                for (uint i = 0; i < 64; ++i) {
+                    const bool lasts = i < count && renewed(state, contacts[first + i]).lasts;
+                    EXPECT_EQ(lasting >> i & 1u, lasts ? 1u : 0u) << first + i;
+                }
+            }
+            for (uint i = 0; i < k_pairs; ++i) {
+                const Renewed one = renewed(state, contacts[i]);
+                const Manifold wanted = one.lasts ? one.manifold : untouched;
+                EXPECT_EQ(std::memcmp(&manifolds[i], &wanted, sizeof wanted), 0) << i;
+                for (uint k = 0; k < 4; ++k) {
+                    const ManifoldPoint point = one.lasts ? one.points[k] : no_point;
+                    EXPECT_EQ(std::memcmp(&points[std::size_t{4} * i + k], &point, sizeof point), 0) << i;
+                }
+                if (!one.lasts) {
+                    EXPECT_EQ(impulses[i].normal, vec4(7.0f)) << i;
+                    EXPECT_EQ(separations[i].separation, vec4(7.0f)) << i;
+                    continue;
+                }
+                EXPECT_EQ(std::memcmp(&separations[i], &one.separations, sizeof one.separations), 0) << i;
+                EXPECT_EQ(impulses[i].normal, old_impulses[contacts[i].manifold].normal) << i;
+            }
+        }
+    }
+    usable_sets = std::numeric_limits<std::size_t>::max();
+}
+
 } // namespace
 } // namespace talus::engine

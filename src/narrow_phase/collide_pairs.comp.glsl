@@ -20,6 +20,7 @@
 #include "narrow_phase/collide_spheres.shared.glsl"
 #include "narrow_phase/collide_shapes.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
+#include "narrow_phase/carried_impulses.shared.glsl"
 #include "narrow_phase/look_ahead.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"
 #include "finish/body_start.shared.glsl"

@@ -9,7 +9,7 @@
 #include "narrow_phase/lane_queries.h"
 #include "narrow_phase/narrow_phase.h"
 #include "narrow_phase/old_contact.h"
-#include "narrow_phase/pairs_in_bits.h"
+#include "narrow_phase/pairs_to_collide.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -71,15 +71,11 @@ bool are_boxes(const CpuState& state, const Pair& pair) {
 
 constexpr uint k_part = k_pairs_a_part;
 
-/// Those of a part's pairs that are listed, a bit each.
-uint take_in_hand(const CpuState& state, uint first, uint end, std::uint64_t listed,
-                  std::array<PairInHand, k_part>& in_hand) {
+uint take_in_hand(const CpuState& state, PartList list, std::array<PairInHand, k_part>& in_hand) {
     uint count = 0;
-    const NearPairs near = find_near(state, &state.pairs[first], end - first); // the search saw boxes with a skin
-    for (; listed != 0; listed &= listed - 1) {
-        const auto place = static_cast<uint>(std::countr_zero(listed));
-        const bool is_still_near = (near.still >> place & 1u) != 0;
-        in_hand[count++] = {first + place, is_still_near ? old_manifold_of(state, first + place) : k_none};
+    for (uint entry = list.next(); entry != k_none; entry = list.next()) {
+        const uint index = entry & ~k_had_contact;
+        in_hand[count++] = {index, (entry & k_had_contact) != 0 ? old_manifold_of(state, index) : k_none};
     }
     return count;
 }
@@ -138,11 +134,9 @@ void collide_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const uint pair_count = state.counters[k_counter_pair_count];
     const Array<uint> words = state.words(launch.bound("PairsToCollide"));
     const auto collide_part = [&](uint, uint first, uint end) {
-        const std::uint64_t listed = bits_at(words, first);
-        if (listed == 0) return;
         std::array<PairInHand, k_part> in_hand;
         std::array<ContactGeometry, k_part> found;
-        const uint count = take_in_hand(state, first, end, listed, in_hand);
+        const uint count = take_in_hand(state, PartList(words, first, end), in_hand);
         const auto others = std::partition(in_hand.begin(), in_hand.begin() + count, [&](const PairInHand& each) {
             return are_boxes(state, state.pairs[each.index]);
         });

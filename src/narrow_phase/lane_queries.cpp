@@ -49,4 +49,19 @@ void collide_box_pairs(const CpuState& state, const BoxQuestion* questions, uint
     std::copy_n(rest.begin(), count - done, answers + done);
 }
 
+std::uint64_t renew_last_contacts(const CpuState& state, const LastContact* contacts, uint count) {
+    const LaneQueries& queries = lane_queries();
+    const uint all = (1u << queries.lanes) - 1;
+    std::uint64_t lasting = 0;
+    uint done = 0;
+    for (; done + queries.lanes <= count; done += queries.lanes)
+        lasting |= std::uint64_t{queries.renew_last_contacts(state, contacts + done, all)} << done;
+    if (done < count) {
+        const auto rest = filled_up(contacts + done, contacts + count);
+        lasting |= std::uint64_t{queries.renew_last_contacts(state, rest.data(), all >> (done + queries.lanes - count))}
+                   << done;
+    }
+    return lasting;
+}
+
 } // namespace talus::engine

@@ -23,12 +23,20 @@ struct NearPairs {
     std::uint64_t still; ///< is_still_candidate()
 };
 
+/// The last step's contact of a pair.
+struct LastContact {
+    uint pair;
+    uint manifold; ///< its place among those of the last step
+};
+
 struct LaneQueries {
     uint lanes; ///< pairs side by side
     /// Of as many pairs as there are lanes.
     NearPairs (*find_near)(const CpuState&, const Pair*);
     /// Answers as many questions as there are lanes.
     void (*collide_box_pairs)(const CpuState&, const BoxQuestion*, ContactGeometry*);
+    /// Of as many contacts as there are lanes those in `lanes`, a bit each. Returns those that last.
+    uint (*renew_last_contacts)(const CpuState&, const LastContact*, uint lanes);
 };
 
 /// Of at most 64 pairs, with the widest registers that this machine has.
@@ -36,5 +44,8 @@ NearPairs find_near(const CpuState&, const Pair*, uint count);
 
 /// Answers `count` questions, as many side by side as the widest registers of this machine have lanes.
 void collide_box_pairs(const CpuState&, const BoxQuestion*, uint count, ContactGeometry*);
+
+/// Writes those of at most 64 contacts that last, as they are in this step. Returns which these are, a bit each.
+std::uint64_t renew_last_contacts(const CpuState&, const LastContact*, uint count);
 
 } // namespace talus::engine

@@ -69,12 +69,77 @@ inline void collide_box_pairs(const CpuState& state, const BoxQuestion* question
     put_geometries(collide_boxes(boxes, carriers, contact_reach(motion, had_contact != 0u, state.parameters)), answers);
 }
 
+inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContact* contacts, std::uint32_t lanes) {
+    std::uint32_t pairs[k_lanes], places[k_lanes];
+    BodiesOfPairs bodies;
+    for (int lane = 0; lane < k_lanes; ++lane) {
+        pairs[lane] = contacts[lane].pair;
+        places[lane] = contacts[lane].manifold;
+        bodies.a[lane] = state.pairs[pairs[lane]].body_a;
+        bodies.b[lane] = state.pairs[pairs[lane]].body_b;
+    }
+    const engine::Parameters& p = state.parameters;
+    const BodyStart start_a = starts_at(state, bodies.a), start_b = starts_at(state, bodies.b);
+    const BodyShape shape_a = shapes_at(state, bodies.a), shape_b = shapes_at(state, bodies.b);
+    const BodyVelocity velocity_a = velocities_at(state, bodies.a), velocity_b = velocities_at(state, bodies.b);
+    const Manifold old = manifolds_at(state.old_manifolds.data, places);
+    const Separations old_separations = separations_at(state.old_point_separations.data, places);
+    const auto old_point = [&](std::uint32_t i) __attribute__((always_inline)) {
+        std::uint32_t points[k_lanes];
+        for (int lane = 0; lane < k_lanes; ++lane)
+            points[lane] = 4 * places[lane] + i;
+        return points_at(state.old_manifold_points.data, points);
+    };
+    const ManifoldPoint point_0 = old_point(0);
+
+    const vec3 offset = offset_at_meeting(start_a.position, start_b.position, vec3(0.0f));
+    const MeetingPoint meeting = meeting_point(point_0.anchor, offset, shape_a, shape_b);
+    const Movement ahead_a = next_movement(velocity_a, p), ahead_b = next_movement(velocity_b, p);
+    const Mask may =
+        mask_of(lanes) && may_last(start_a, shape_a, start_b, shape_b) && is_of_kind_that_lasts(old, old_separations);
+    // Of what moves nothing else has to be asked: the way grows only.
+    if (!any_lane(may && stays(old_separations.way, ahead_a, ahead_b, meeting, p))) return 0;
+
+    const Movement a = last_movement(poses_at(state, bodies.a), start_a);
+    const Movement b = last_movement(poses_at(state, bodies.b), start_b);
+    const Lanes way = way_after(old_separations, way_between(a, b, meeting));
+    const Manifold manifold = lasting_manifold(old, a, b, p);
+    const ManifoldPoint point_1 = old_point(1), point_2 = old_point(2), point_3 = old_point(3);
+    const auto opening = [&](const ManifoldPoint& point) __attribute__((always_inline)) {
+        return opening_at(manifold.normal, point.anchor, offset, a, b);
+    };
+    const vec4 openings(opening(point_0), opening(point_1), opening(point_2), opening(point_3));
+    const Separations separations = lasting_separations(old_separations, openings, way, old.point_count);
+    const vec3 motion = motion_between(velocity_a, velocity_b, p);
+    const std::uint32_t lasting = bits_of(may && stays(way, ahead_a, ahead_b, meeting, p) &&
+                                          is_within_reach(separations, old.point_count, motion, p));
+    if (lasting == 0) return 0;
+
+    put_manifolds(state, pairs, lasting, manifold);
+    put_separations(state, pairs, lasting, separations);
+    scatter(state.point_impulses.data, pairs, 0, lasting, gather(state.old_point_impulses.data, places, 0));
+    const auto put_point = [&](std::uint32_t i, const ManifoldPoint& point) __attribute__((always_inline)) {
+        std::uint32_t points[k_lanes];
+        for (int lane = 0; lane < k_lanes; ++lane)
+            points[lane] = 4 * pairs[lane] + i;
+        const vec3 anchor = lasting_anchor(point.anchor, offset, a, b);
+        scatter(state.manifold_points.data, points, 0, lasting & bits_of(i < old.point_count),
+                {anchor.x, anchor.y, anchor.z, uintBitsToFloat(point.feature_id)});
+    };
+    put_point(0, point_0);
+    put_point(1, point_1);
+    put_point(2, point_2);
+    put_point(3, point_3);
+    return lasting;
+}
+
 } // namespace talus::engine::TALUS_LANES_NAME
 
 namespace talus::engine {
 
 extern const LaneQueries TALUS_OF_SET(lane_queries);
 const LaneQueries TALUS_OF_SET(lane_queries){TALUS_LANES, TALUS_LANES_NAME::find_near,
-                                             TALUS_LANES_NAME::collide_box_pairs};
+                                             TALUS_LANES_NAME::collide_box_pairs,
+                                             TALUS_LANES_NAME::renew_last_contacts};
 
 } // namespace talus::engine

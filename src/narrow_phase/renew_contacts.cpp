@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// CPU twin of renew_contacts.comp.glsl. Its list has a bit for each pair, which collide_pairs reads in its order.
+// CPU twin of renew_contacts.comp.glsl.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -9,7 +9,7 @@
 #include "narrow_phase/lane_queries.h"
 #include "narrow_phase/narrow_phase.h"
 #include "narrow_phase/old_contact.h"
-#include "narrow_phase/pairs_in_bits.h"
+#include "narrow_phase/pairs_to_collide.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -40,63 +40,20 @@ void keep_manifold(CpuState& state, uint pair_index, uint old_index) {
                 &state.manifold_points[std::size_t{4} * pair_index]);
 }
 
-/// How two bodies have moved in the last step.
-struct PairMovement {
-    Movement a;
-    Movement b;
-    vec3 offset;   ///< m, from A's centre to B's before
-    bool may_last; ///< what was known of them
-};
-
-PairMovement movement_of(const CpuState& state, const Pair& pair) {
-    const BodyStart &start_a = state.starts[pair.body_a], &start_b = state.starts[pair.body_b];
-    return {last_movement(state.poses[pair.body_a], start_a), last_movement(state.poses[pair.body_b], start_b),
-            offset_at_meeting(start_a.position, start_b.position, vec3(0.0f)),
-            may_last(start_a, state.shapes[pair.body_a], start_b, state.shapes[pair.body_b])};
-}
-
-/// Whether the contact lasts; then it is this step's.
-bool renew(CpuState& state, uint pair_index, uint old_index) {
-    const Parameters& p = state.parameters;
-    const auto [body_a, body_b] = state.pairs[pair_index];
-    const BodyVelocity &velocity_a = state.velocities[body_a], &velocity_b = state.velocities[body_b];
-    const Manifold& old = state.old_manifolds[old_index];
-    const Separations& old_separations = state.old_point_separations[old_index];
-    const auto [a, b, offset, may] = movement_of(state, state.pairs[pair_index]);
-    if (!may || !is_of_kind_that_lasts(old, old_separations)) return false;
-    const ManifoldPoint* const old_points = &state.old_manifold_points[std::size_t{4} * old_index];
-    const MeetingPoint meeting =
-        meeting_point(old_points[0].anchor, offset, state.shapes[body_a], state.shapes[body_b]);
-    const float way = way_after(old_separations, way_between(a, b, meeting));
-    if (!stays(way, next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, p)) return false;
-    const Manifold manifold = lasting_manifold(old, a, b, p);
-    vec4 opening(0.0f);
-    for (uint i = 0; i < old.point_count; ++i)
-        opening[static_cast<int>(i)] = opening_at(manifold.normal, old_points[i].anchor, offset, a, b);
-    const Separations separations = lasting_separations(old_separations, opening, way, old.point_count);
-    if (!is_within_reach(separations, old.point_count, motion_between(velocity_a, velocity_b, p), p)) return false;
-
-    state.manifolds[pair_index] = manifold;
-    state.point_impulses[pair_index] = state.old_point_impulses[old_index];
-    state.point_separations[pair_index] = separations;
-    for (uint i = 0; i < old.point_count; ++i)
-        state.manifold_points[std::size_t{4} * pair_index + i] =
-            make_point(lasting_anchor(old_points[i].anchor, offset, a, b), old_points[i].feature_id);
-    return true;
-}
-
 float gap_now(const CpuState& state, uint pair_index) {
-    const Pair& pair = state.pairs[pair_index];
-    const auto [a, b, offset, may] = movement_of(state, pair);
-    if (!may) return 0.0f;
-    const MeetingPoint centre = centre_of_smaller(offset, state.shapes[pair.body_a], state.shapes[pair.body_b]);
-    return gap_after(old_gap(state, pair_index), way_between(a, b, centre));
+    const float gap = old_gap(state, pair_index);
+    if (!(gap > 0.0f)) return 0.0f;
+    const auto [body_a, body_b] = state.pairs[pair_index];
+    const BodyStart &start_a = state.starts[body_a], &start_b = state.starts[body_b];
+    const BodyShape &shape_a = state.shapes[body_a], &shape_b = state.shapes[body_b];
+    if (!may_last(start_a, shape_a, start_b, shape_b)) return 0.0f;
+    const Movement a = last_movement(state.poses[body_a], start_a), b = last_movement(state.poses[body_b], start_b);
+    const vec3 offset = offset_at_meeting(start_a.position, start_b.position, vec3(0.0f));
+    return gap_after(gap, way_between(a, b, centre_of_smaller(offset, shape_a, shape_b)));
 }
 
-/// Whether the pair is to be listed; the contact of others is there, or is written here.
-bool is_to_collide(CpuState& state, uint pair_index, bool is_near, bool is_still_near) {
-    const uint old_index = is_still_near ? old_manifold_of(state, pair_index) : k_none;
-    if (old_index != k_none) return !renew(state, pair_index, old_index);
+/// Whether a pair that had no contact is to be listed; else it has none.
+bool may_touch(CpuState& state, uint pair_index, bool is_near) {
     const auto [a, b] = state.pairs[pair_index];
     const vec3 motion = motion_between(state.velocities[a], state.velocities[b], state.parameters);
     const float gap = gap_now(state, pair_index);
@@ -123,16 +80,32 @@ void renew_contacts_on_cpu(CpuState& state, const Launch& launch) {
             awake &= ~(std::uint64_t{1} << (index - first));
             if (!is_there) keep_manifold(state, index, old_manifold_of(state, index));
         }
-        std::uint64_t listed = 0;
+        std::uint64_t listed = 0, had_contact = 0;
+        std::array<LastContact, k_pairs_a_part> contacts;
+        uint contact_count = 0;
         const NearPairs near = awake != 0 ? find_near(state, &state.pairs[first], end - first)
                                           : NearPairs{}; // the search saw boxes with a skin
         for (std::uint64_t left = awake; left != 0; left &= left - 1) {
             const std::uint64_t bit = left & (0 - left);
             const uint index = first + static_cast<uint>(std::countr_zero(left));
-            if (is_to_collide(state, index, (near.now & bit) != 0, (near.still & bit) != 0)) listed |= bit;
+            const uint old_index = (near.still & bit) != 0 ? old_manifold_of(state, index) : k_none;
+            if (old_index != k_none) {
+                contacts[contact_count++] = {index, old_index};
+                had_contact |= bit;
+            } else if (may_touch(state, index, (near.now & bit) != 0)) {
+                listed |= bit;
+            }
         }
-        put_bits(words, first, listed);
-        count.fetch_add(static_cast<uint>(std::popcount(listed)), std::memory_order_relaxed);
+        const std::uint64_t lasting = renew_last_contacts(state, contacts.data(), contact_count);
+        for (uint i = 0; i < contact_count; ++i) {
+            if ((lasting >> i & 1u) == 0) listed |= std::uint64_t{1} << (contacts[i].pair - first);
+        }
+        PartList list(words, first, end);
+        for (; listed != 0; listed &= listed - 1) {
+            const auto place = static_cast<uint>(std::countr_zero(listed));
+            list.add((first + place) | ((had_contact >> place & 1u) != 0 ? k_had_contact : 0u));
+        }
+        count.fetch_add(list.close(), std::memory_order_relaxed);
     };
     state.parallel_parts(pair_count, k_pairs_a_part, renew_part, 2 * k_pairs_a_part);
     state.counters[k_counter_pairs_to_collide] = count;

@@ -42,7 +42,7 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
             points[i][lane] = 4 * contact.manifold + i;
     }
     const std::uint32_t lanes = (1u << count) - 1u;
-    const Manifold manifold = manifolds_at(state, manifolds);
+    const Manifold manifold = manifolds_at(state.manifolds.data, manifolds);
     const BodyInertia inertia_a = inertias_at(state, body_a), inertia_b = inertias_at(state, body_b);
     const Lanes inverse_mass_a = gather(state.velocities.data, body_a, 0).w;
     const Lanes inverse_mass_b = gather(state.velocities.data, body_b, 0).w;
@@ -55,10 +55,10 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     };
     const vec3 position_a = three_of(gather(state.poses.data, body_a, 0));
     const vec3 position_b = three_of(gather(state.poses.data, body_b, 0));
-    Separations separations = separations_at(state, manifolds);
+    Separations separations = separations_at(state.point_separations.data, manifolds);
     const vec3 offset = offset_at_meeting(position_a, position_b, separations.shift);
     for (std::uint32_t i = 0; i < 4; ++i)
-        c = choose(has_point(i), add_to_centre(c, anchors_at(state, points[i]), offset), c);
+        c = choose(has_point(i), add_to_centre(c, points_at(state.manifold_points.data, points[i]).anchor, offset), c);
     c = end_centre(c, position_a, position_b);
 
     const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);
@@ -80,7 +80,7 @@ inline void prepare_contacts(const CpuState& state, const ContactToPrepare* cont
     vec4 impulses = all_of(gather(state.point_impulses.data, manifolds, 0));
     for (std::uint32_t i = 0; i < 4; ++i)
         c = choose(has_point(i),
-                   add_point(c, static_cast<int>(i), anchors_at(state, points[i]),
+                   add_point(c, static_cast<int>(i), points_at(state.manifold_points.data, points[i]).anchor,
                              separations.separation[static_cast<int>(i)], impulses[static_cast<int>(i)], meeting,
                              response),
                    c);

@@ -43,6 +43,7 @@ namespace talus::engine {
 #include "narrow_phase/collide_boxes.shared.glsl"
 #include "narrow_phase/collide_spheres.shared.glsl"
 
+#include "narrow_phase/carried_impulses.shared.glsl"
 #include "narrow_phase/collide_shapes.shared.glsl"
 #include "narrow_phase/manifold.shared.glsl"
 #include "narrow_phase/pair_table.shared.glsl"

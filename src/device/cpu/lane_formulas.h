@@ -94,6 +94,11 @@ inline AxisQuery choose(bool m, const AxisQuery& yes, const AxisQuery& no) {
 
 #include "narrow_phase/collide_boxes.shared.glsl"
 
+#include "narrow_phase/manifold.shared.glsl"
+
+#include "finish/body_start.shared.glsl"
+#include "narrow_phase/lasting_contact.shared.glsl"
+
 struct NormalSweep;
 inline NormalSweep choose(bool, const NormalSweep&, const NormalSweep&);
 #include "resolution/contact.shared.glsl"

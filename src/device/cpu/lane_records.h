@@ -21,6 +21,11 @@ TALUS_LANE BodyPose poses_at(const CpuState& state, const std::uint32_t* bodies)
     return {three_of(position), floatBitsToUint(position.w), all_of(gather(state.poses.data, bodies, 1))};
 }
 
+TALUS_LANE BodyStart starts_at(const CpuState& state, const std::uint32_t* bodies) {
+    const auto start = gather(state.starts.data, bodies, 0);
+    return {three_of(start), floatBitsToUint(start.w)};
+}
+
 TALUS_LANE BodyShape shapes_at(const CpuState& state, const std::uint32_t* bodies) {
     const auto shape = gather(state.shapes.data, bodies, 0);
     return {three_of(shape), floatBitsToUint(shape.w)};
@@ -154,9 +159,10 @@ TALUS_LANE void put_constraints(const CpuState& state, const std::uint32_t* plac
     put_4(14, c.total_impulse);
 }
 
-TALUS_LANE Manifold manifolds_at(const CpuState& state, const std::uint32_t* places) {
+// Of this step, or of the last one.
+TALUS_LANE Manifold manifolds_at(const engine::Manifold* manifolds, const std::uint32_t* places) {
     const auto cell = [&](std::size_t i) __attribute__((always_inline)) {
-        return gather(state.manifolds.data, places, i);
+        return gather(manifolds, places, i);
     };
     const auto head = cell(0), normal = cell(1), friction = cell(2), rest = cell(3);
     return {floatBitsToUint(head.x),
@@ -175,13 +181,33 @@ TALUS_LANE Manifold manifolds_at(const CpuState& state, const std::uint32_t* pla
             floatBitsToUint(rest.w)};
 }
 
-TALUS_LANE vec3 anchors_at(const CpuState& state, const std::uint32_t* places) {
-    return three_of(gather(state.manifold_points.data, places, 0));
+TALUS_LANE void put_manifolds(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
+                              const Manifold& m) {
+    const auto put = [&](std::size_t cell, FourLanes words) __attribute__((always_inline)) {
+        scatter(state.manifolds.data, places, cell, lanes, words);
+    };
+    put(0, {uintBitsToFloat(m.body_a), uintBitsToFloat(m.body_b), uintBitsToFloat(m.point_count),
+            uintBitsToFloat(m.colour)});
+    put(1, {m.normal.x, m.normal.y, m.normal.z, uintBitsToFloat(m.axis)});
+    put(2, {m.friction, m.restitution, m.tangent_impulse_1, m.tangent_impulse_2});
+    put(3, {m.twist_impulse, m.weights, m.lasting_weights, uintBitsToFloat(m.demand)});
 }
 
-TALUS_LANE Separations separations_at(const CpuState& state, const std::uint32_t* places) {
-    const auto shift = gather(state.point_separations.data, places, 1);
-    return {all_of(gather(state.point_separations.data, places, 0)), three_of(shift), shift.w};
+TALUS_LANE ManifoldPoint points_at(const engine::ManifoldPoint* points, const std::uint32_t* places) {
+    const auto point = gather(points, places, 0);
+    return {three_of(point), floatBitsToUint(point.w)};
+}
+
+TALUS_LANE Separations separations_at(const engine::Separations* separations, const std::uint32_t* places) {
+    const auto shift = gather(separations, places, 1);
+    return {all_of(gather(separations, places, 0)), three_of(shift), shift.w};
+}
+
+TALUS_LANE void put_separations(const CpuState& state, const std::uint32_t* places, std::uint32_t lanes,
+                                const Separations& s) {
+    scatter(state.point_separations.data, places, 0, lanes,
+            {s.separation.x, s.separation.y, s.separation.z, s.separation.w});
+    scatter(state.point_separations.data, places, 1, lanes, {s.shift.x, s.shift.y, s.shift.z, s.way});
 }
 
 /// As the bodies are now.
