@@ -15,6 +15,7 @@
 #include "broad_phase/lane_search.h"
 #include "device/cpu/flush_denormals.h"
 #include "device/cpu/instruction_set.h"
+#include "finish/lane_moves.h"
 #include "narrow_phase/lane_queries.h"
 #include "resolution/body_passes.h"
 #include "resolution/lane_passes.h"
@@ -818,6 +819,54 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
                 }
                 EXPECT_EQ(std::memcmp(&separations[i], &one.separations, sizeof one.separations), 0) << i;
                 EXPECT_EQ(impulses[i].normal, old_impulses[contacts[i].manifold].normal) << i;
+            }
+        }
+    }
+    usable_sets = std::numeric_limits<std::size_t>::max();
+}
+
+TEST(Lanes, move_bodies_with_the_bits_of_one_at_a_time) {
+    const FlushDenormals flush;
+    Items items(5, 0.0f);
+    items.deltas[7].position.y = std::numeric_limits<float>::infinity();
+    items.velocities[20].angular.z = std::numeric_limits<float>::quiet_NaN();
+    items.velocities[21].linear = vec3(900.0f, 0.0f, 0.0f); // faster than is allowed
+    items.velocities[22] = {vec3(900.0f, 0.0f, 0.0f), 0.0f, vec3(0.0f), 0};
+    const std::vector<BodyPose> poses = items.poses;
+    const std::vector<BodyVelocity> velocities = items.velocities;
+    std::vector<MovingBody> moving;
+    for (uint i = 0; i < Items::k_bodies; ++i)
+        moving.push_back({(5 * i + 3) % Items::k_bodies, (poses[i].flags & ~k_body_frozen) | k_body_placed | i << 16});
+    const BodyStart no_start{vec3(0.0f), 7};
+    for (std::size_t sets = 1; sets <= runnable_sets(); ++sets) {
+        usable_sets = sets;
+        for (uint at_a_time = 1; at_a_time <= 64; at_a_time += 7) { // also such as fill no register
+            items.poses = poses;
+            items.velocities = velocities;
+            std::vector<BodyStart> starts(Items::k_bodies, no_start);
+            CpuState state = items.state();
+            state.starts = {starts.data(), starts.size()};
+            std::vector<bool> left(Items::k_bodies, false);
+            for (uint first = 0; first < moving.size(); first += at_a_time) {
+                const uint count = min(at_a_time, static_cast<uint>(moving.size()) - first);
+                const std::uint64_t bits = move_bodies(state, &moving[first], count);
+                for (uint i = 0; i < count; ++i)
+                    left[moving[first + i].body] = (bits >> i & 1u) != 0;
+            }
+            EXPECT_EQ(std::ranges::count(left, true), 2);
+            for (const auto& [body, flags] : moving) {
+                BodyPose pose = poses[body];
+                pose.flags = flags;
+                const BodyPose moved = apply_delta(pose, items.deltas[body]);
+                const bool is_finite = is_finite_motion(moved, velocities[body]);
+                EXPECT_EQ(left[body], !is_finite) << body;
+                const BodyPose wanted = is_finite ? moved : poses[body];
+                const BodyStart start = is_finite ? start_at(pose, moved) : no_start;
+                const BodyVelocity limited =
+                    is_finite ? limit_speeds(velocities[body], state.parameters) : velocities[body];
+                EXPECT_EQ(std::memcmp(&items.poses[body], &wanted, sizeof wanted), 0) << body;
+                EXPECT_EQ(std::memcmp(&starts[body], &start, sizeof start), 0) << body;
+                EXPECT_EQ(std::memcmp(&items.velocities[body], &limited, sizeof limited), 0) << body;
             }
         }
     }

@@ -38,6 +38,7 @@ TEST(Turns, are_known_to_a_part_of_their_largest_component) {
 
 TEST(Turns, of_nothing_are_nothing_and_large_ones_stay_large) {
     const engine::vec3 none = engine::unpack_turn(engine::pack_turn(engine::vec3(0.0f)));
+    EXPECT_EQ(engine::pack_turn(engine::vec3(-0.0f, 0.0f, 0.0f)), engine::start_of_still(engine::BodyPose{}).turn);
     EXPECT_EQ(none, engine::vec3(0.0f));
     for (const float size : {2.0f, 3.0f, 1e6f, 3e38f})
         for (const float sign : {-1.0f, 1.0f}) {

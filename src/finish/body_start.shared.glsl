@@ -53,6 +53,15 @@ inline BodyStart start_at(BodyPose pose, BodyPose moved)
     return start;
 }
 
+// Of a body that stays where it is.
+inline BodyStart start_of_still(BodyPose pose)
+{
+    BodyStart start;
+    start.position = pose.position;
+    start.turn = 0u; // to which no turn is packed
+    return start;
+}
+
 inline BodyStart forget_turn(BodyStart start)
 {
     start.turn = k_no_turn_known;

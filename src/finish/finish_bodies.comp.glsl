@@ -58,7 +58,7 @@ void main()
     BodyPose pose = unpack(poses[body]);
     bool is_kept = args.y == 1u && is_asleep(pose) && is_settled(pose);
     if (is_asleep(pose)) {
-        if (!is_kept) starts[body] = pack(start_at(pose, pose));
+        if (!is_kept) starts[body] = pack(start_of_still(pose));
         bool is_weighed = args.x == 1u && (island_fill[body] & k_pressed) != 0u;
         if (is_weighed && !is_in_balance(body) && (pose.flags & k_body_frozen) == 0u) {
             rests[body] = pack(with_calm(unpack(rests[body]), 0u));
@@ -74,7 +74,7 @@ void main()
     if (args.z == 1u && (moves || disturbed)) loads[body] = pack(no_load());
     pose.flags &= ~k_body_disturbed;
     if (!moves || (pose.flags & k_body_frozen) != 0u) {
-        starts[body] = pack(start_at(pose, pose));
+        starts[body] = pack(start_of_still(pose));
         if (disturbed) poses[body] = pack(pose);
         bool may_sleep = args.x == 1u && is_movable(unpack(shapes[body])); // what is frozen rests
         if (may_sleep) rests[body] = pack(with_calm(unpack(rests[body]), parameters.rest_steps));
@@ -99,7 +99,7 @@ void main()
         BodyVelocity limited = limit_speeds(velocity, parameters);
         if (limited != velocity) velocities[body] = pack(limited);
     } else {
-        starts[body] = pack(start_at(pose, pose));
+        starts[body] = pack(start_of_still(pose));
         pose.flags |= k_body_frozen;
         poses[body] = pack(pose);
         velocities[body] = pack(frozen_velocity());

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // CPU twin of finish_bodies.comp.glsl.
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 
 #include "device/cpu/cpu_state.h"
 #include "finish/finish.h"
+#include "finish/lane_moves.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
@@ -19,6 +22,24 @@ static bool is_in_balance(const CpuState& state, uint body) {
                        state.properties[body].gravity_scale, state.parameters);
 }
 
+/// Of a body that the step moves. Its rest is counted.
+static uint flags_of_moved(CpuState& state, uint body, bool is_touched) {
+    const BodyPose& pose = state.poses[body];
+    if (state.parameters.rest_steps == 0 || !is_movable(state.shapes[body])) return wake_flags(pose.flags);
+    const BodyDelta& delta = state.deltas[body];
+    const NextRest next = next_rest(pose, apply_delta(pose, delta), delta, state.rests[body], is_touched,
+                                    state.shapes[body], state.parameters);
+    state.rests[body] = next.rest;
+    return next.flags;
+}
+
+static void freeze(CpuState& state, uint body) {
+    state.starts[body] = start_of_still(state.poses[body]);
+    state.poses[body].flags |= k_body_frozen;
+    state.velocities[body] = frozen_velocity();
+    std::atomic_ref(state.counters[k_counter_frozen_bodies]).fetch_add(1);
+}
+
 static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
     const Parameters& p = state.parameters;
     state.counters[k_counter_old_pair_count] = state.counters[k_counter_pair_count];
@@ -27,47 +48,42 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
     const auto is_noted = [&](uint body, uint what) {
         return launch.args[0] == 1 && (state.island_fill[body] & what) != 0;
     };
-    state.parallel(p.body_count, [&](uint body) {
+    const auto finish_sleeper = [&](uint body) {
         BodyPose& pose = state.poses[body];
-        state.starts[body] = start_at(pose, pose);
-        if (is_asleep(pose)) {
-            if (!is_noted(body, k_pressed)) return;
-            if (!is_in_balance(state, body) && (pose.flags & k_body_frozen) == 0) {
-                state.rests[body] = with_calm(state.rests[body], 0);
-                pose.flags &= ~k_body_in_part;
-            }
-            std::fill_n(&state.balances[std::size_t{k_balance_words} * body], k_balance_words, 0u);
-            return;
+        state.starts[body] = start_of_still(pose);
+        if (!is_noted(body, k_pressed)) return;
+        if (!is_in_balance(state, body) && (pose.flags & k_body_frozen) == 0) {
+            state.rests[body] = with_calm(state.rests[body], 0);
+            pose.flags &= ~k_body_in_part;
         }
+        std::fill_n(&state.balances[std::size_t{k_balance_words} * body], k_balance_words, 0u);
+    };
+    // Whether the step moves it; else nothing is left to do.
+    const auto begin_to_finish = [&](uint body) {
+        BodyPose& pose = state.poses[body];
         const bool moves = is_mover(state.shapes[body]);
         if (launch.args[2] == 1 && (moves || (pose.flags & k_body_disturbed) != 0)) state.loads[body] = no_load();
         pose.flags &= ~k_body_disturbed;
-        if (!moves || (pose.flags & k_body_frozen) != 0) {
-            const bool may_sleep = launch.args[0] == 1 && is_movable(state.shapes[body]); // what is frozen rests
-            if (may_sleep) state.rests[body] = with_calm(state.rests[body], p.rest_steps);
-            return;
+        if (moves && (pose.flags & k_body_frozen) == 0) return true;
+        state.starts[body] = start_of_still(pose);
+        const bool may_sleep = launch.args[0] == 1 && is_movable(state.shapes[body]); // what is frozen rests
+        if (may_sleep) state.rests[body] = with_calm(state.rests[body], p.rest_steps);
+        return false;
+    };
+    constexpr uint k_part = 64;
+    const auto finish_part = [&](uint, uint first, uint end) {
+        std::array<MovingBody, k_part> moving;
+        uint count = 0;
+        for (uint body = first; body < end; ++body) {
+            if (is_asleep(state.poses[body]))
+                finish_sleeper(body);
+            else if (begin_to_finish(body))
+                moving[count++] = {body, flags_of_moved(state, body, is_noted(body, k_touched))};
         }
-        BodyPose moved = apply_delta(pose, state.deltas[body]);
-        const bool may_rest = p.rest_steps > 0 && is_movable(state.shapes[body]);
-        if (may_rest) {
-            const NextRest next = next_rest(pose, moved, state.deltas[body], state.rests[body],
-                                            is_noted(body, k_touched), state.shapes[body], p);
-            moved.flags = next.flags;
-            state.rests[body] = next.rest;
-        } else {
-            moved.flags = wake_flags(moved.flags);
-        }
-        if (is_finite_motion(moved, state.velocities[body])) {
-            state.starts[body] = start_at(pose, moved);
-            pose = moved;
-            BodyVelocity& velocity = state.velocities[body];
-            velocity = limit_speeds(velocity, p);
-        } else {
-            pose.flags |= k_body_frozen;
-            state.velocities[body] = frozen_velocity();
-            std::atomic_ref(state.counters[k_counter_frozen_bodies]).fetch_add(1);
-        }
-    });
+        for (std::uint64_t left = move_bodies(state, moving.data(), count); left != 0; left &= left - 1)
+            freeze(state, moving[static_cast<uint>(std::countr_zero(left))].body);
+    };
+    state.parallel_parts(p.body_count, k_part, finish_part);
 }
 
 const Kernel finish_bodies{"finish/finish_bodies", finish_bodies_on_cpu};

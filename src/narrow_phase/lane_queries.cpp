@@ -14,14 +14,6 @@ static const LaneQueries& lane_queries() {
     return TALUS_FOR_THIS_MACHINE(lane_queries);
 }
 
-/// Of those that fill no register: with the first of them again in the lanes that are left.
-template <typename T> static std::array<T, k_most_lanes> filled_up(const T* first, const T* end) {
-    std::array<T, k_most_lanes> all;
-    all.fill(*first);
-    std::copy(first, end, all.begin());
-    return all;
-}
-
 NearPairs find_near(const CpuState& state, const Pair* pairs, uint count) {
     const LaneQueries& queries = lane_queries();
     NearPairs all{};
@@ -51,17 +43,9 @@ void collide_box_pairs(const CpuState& state, const BoxQuestion* questions, uint
 
 std::uint64_t renew_last_contacts(const CpuState& state, const LastContact* contacts, uint count) {
     const LaneQueries& queries = lane_queries();
-    const uint all = (1u << queries.lanes) - 1;
-    std::uint64_t lasting = 0;
-    uint done = 0;
-    for (; done + queries.lanes <= count; done += queries.lanes)
-        lasting |= std::uint64_t{queries.renew_last_contacts(state, contacts + done, all)} << done;
-    if (done < count) {
-        const auto rest = filled_up(contacts + done, contacts + count);
-        lasting |= std::uint64_t{queries.renew_last_contacts(state, rest.data(), all >> (done + queries.lanes - count))}
-                   << done;
-    }
-    return lasting;
+    return by_lanes(queries.lanes, contacts, count, [&](const LastContact* some, uint lanes) {
+        return queries.renew_last_contacts(state, some, lanes);
+    });
 }
 
 } // namespace talus::engine

@@ -82,7 +82,6 @@ inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContac
     const BodyStart start_a = starts_at(state, bodies.a), start_b = starts_at(state, bodies.b);
     const BodyShape shape_a = shapes_at(state, bodies.a), shape_b = shapes_at(state, bodies.b);
     const BodyVelocity velocity_a = velocities_at(state, bodies.a), velocity_b = velocities_at(state, bodies.b);
-    const Manifold old = manifolds_at(state.old_manifolds.data, places);
     const Separations old_separations = separations_at(state.old_point_separations.data, places);
     const auto old_point = [&](std::uint32_t i) __attribute__((always_inline)) {
         std::uint32_t points[k_lanes];
@@ -95,11 +94,11 @@ inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContac
     const vec3 offset = offset_at_meeting(start_a.position, start_b.position, vec3(0.0f));
     const MeetingPoint meeting = meeting_point(point_0.anchor, offset, shape_a, shape_b);
     const Movement ahead_a = next_movement(velocity_a, p), ahead_b = next_movement(velocity_b, p);
-    const Mask may =
-        mask_of(lanes) && may_last(start_a, shape_a, start_b, shape_b) && is_of_kind_that_lasts(old, old_separations);
+    const Mask may = mask_of(lanes) && may_last(start_a, shape_a, start_b, shape_b);
     // Of what moves nothing else has to be asked: the way grows only.
     if (!any_lane(may && stays(old_separations.way, ahead_a, ahead_b, meeting, p))) return 0;
 
+    const Manifold old = manifolds_at(state.old_manifolds.data, places);
     const Movement a = last_movement(poses_at(state, bodies.a), start_a);
     const Movement b = last_movement(poses_at(state, bodies.b), start_b);
     const Lanes way = way_after(old_separations, way_between(a, b, meeting));
@@ -111,8 +110,9 @@ inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContac
     const vec4 openings(opening(point_0), opening(point_1), opening(point_2), opening(point_3));
     const Separations separations = lasting_separations(old_separations, openings, way, old.point_count);
     const vec3 motion = motion_between(velocity_a, velocity_b, p);
-    const std::uint32_t lasting = bits_of(may && stays(way, ahead_a, ahead_b, meeting, p) &&
-                                          is_within_reach(separations, old.point_count, motion, p));
+    const std::uint32_t lasting =
+        bits_of(may && is_of_kind_that_lasts(old, old_separations) && stays(way, ahead_a, ahead_b, meeting, p) &&
+                is_within_reach(separations, old.point_count, motion, p));
     if (lasting == 0) return 0;
 
     put_manifolds(state, pairs, lasting, manifold);

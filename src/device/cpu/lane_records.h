@@ -21,6 +21,16 @@ TALUS_LANE BodyPose poses_at(const CpuState& state, const std::uint32_t* bodies)
     return {three_of(position), floatBitsToUint(position.w), all_of(gather(state.poses.data, bodies, 1))};
 }
 
+TALUS_LANE void put_poses(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes, const BodyPose& p) {
+    scatter(state.poses.data, bodies, 0, lanes, {p.position.x, p.position.y, p.position.z, uintBitsToFloat(p.flags)});
+    scatter(state.poses.data, bodies, 1, lanes, {p.rotation.x, p.rotation.y, p.rotation.z, p.rotation.w});
+}
+
+TALUS_LANE void put_starts(const CpuState& state, const std::uint32_t* bodies, std::uint32_t lanes,
+                           const BodyStart& s) {
+    scatter(state.starts.data, bodies, 0, lanes, {s.position.x, s.position.y, s.position.z, uintBitsToFloat(s.turn)});
+}
+
 TALUS_LANE BodyStart starts_at(const CpuState& state, const std::uint32_t* bodies) {
     const auto start = gather(state.starts.data, bodies, 0);
     return {three_of(start), floatBitsToUint(start.w)};

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "finish/lane_moves.h"
+
+#include "device/cpu/instruction_set.h"
+
+namespace talus::engine {
+
+TALUS_DECLARE_OF_SETS(LaneMoves, lane_moves);
+
+std::uint64_t move_bodies(const CpuState& state, const MovingBody* bodies, uint count) {
+    const LaneMoves& moves = TALUS_FOR_THIS_MACHINE(lane_moves);
+    return by_lanes(moves.lanes, bodies, count,
+                    [&](const MovingBody* some, uint lanes) { return moves.move_bodies(state, some, lanes); });
+}
+
+} // namespace talus::engine
