@@ -695,10 +695,12 @@ TEST(Lanes, find_near_as_one_at_a_time) {
 
 /// What a pair's contact in the last step becomes in this one.
 struct Renewed {
-    bool lasts = false;
+    bool may_last = false, in_place = false, stays = false, within_reach = false;
     Manifold manifold{};
     Separations separations{};
     ManifoldPoint points[4]{};
+
+    bool lasts() const { return may_last && in_place && stays && within_reach; }
 };
 
 Renewed renewed(const CpuState& state, const LastContact& contact) {
@@ -713,18 +715,21 @@ Renewed renewed(const CpuState& state, const LastContact& contact) {
     const Movement a = last_movement(state.poses[body_a], start_a), b = last_movement(state.poses[body_b], start_b);
     const vec3 offset = offset_at_meeting(start_a.position, start_b.position, vec3(0.0f));
     const MeetingPoint meeting = meeting_point(old_points[0].anchor, offset, shape_a, shape_b);
-    const float way = way_after(old_separations, way_between(a, b, meeting));
+    const LastingAxis axis = lasting_axis(old, a, b, state.poses[body_a], state.poses[body_b]);
+    const float way = way_after(old_separations, way_between(a, b, meeting), axis.leverage);
     Renewed made;
-    made.manifold = lasting_manifold(old, a, b, p);
+    made.manifold = lasting_manifold(old, axis.normal, p);
     vec4 opening(0.0f);
     for (uint i = 0; i < old.point_count; ++i) {
         opening[static_cast<int>(i)] = opening_at(made.manifold.normal, old_points[i].anchor, offset, a, b);
         made.points[i] = make_point(lasting_anchor(old_points[i].anchor, offset, a, b), old_points[i].feature_id);
     }
     made.separations = lasting_separations(old_separations, opening, way, old.point_count);
-    made.lasts = may_last(start_a, shape_a, start_b, shape_b) && is_of_kind_that_lasts(old, old_separations) &&
-                 stays(way, next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, p) &&
-                 is_within_reach(made.separations, old.point_count, motion_between(velocity_a, velocity_b, p), p);
+    made.may_last = may_last(start_a, shape_a, start_b, shape_b);
+    made.in_place = was_found_in_place(old_separations);
+    made.stays = stays(way, next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, axis.leverage, p);
+    made.within_reach =
+        is_within_reach(made.separations, old.point_count, motion_between(velocity_a, velocity_b, p), p);
     return made;
 }
 
@@ -762,8 +767,9 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
         contacts.push_back({i, (i + 3) % k_pairs});
         const vec3 n = items.vector(1.0f), friction = items.vector(0.3f);
         const uint count = 1 + i % 4, colour = i % 19 == 0 ? k_inactive_colour : i % 20;
-        old_manifolds.push_back({i, i + 1, count, colour, scale3(n, inverse_sqrt(dot3(n, n))), i % 13 == 0 ? 9 : i % 6,
-                                 0.5f, 0.1f, friction.x, friction.y, friction.z, items.number(1.0f), items.number(1.0f),
+        old_manifolds.push_back({i, i + 1, count, colour, scale3(n, inverse_sqrt(dot3(n, n))),
+                                 i % 5 == 0 ? 6 + i % 9 : i % 6, 0.5f, 0.1f, friction.x, friction.y, friction.z,
+                                 items.number(1.0f), items.number(1.0f),
                                  make_demand(8 << i % 3, i % 5, i % 4, 1 + i % 5)});
         for (uint k = 0; k < 4; ++k) // those that are not there may be anything
             old_points.push_back({k < count ? items.vector(0.5f) : vec3(NAN), 10 * i + k});
@@ -780,9 +786,20 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
     state.old_manifold_points = {old_points.data(), old_points.size()};
     state.old_point_separations = {old_separations.data(), old_separations.size()};
     state.old_point_impulses = {old_impulses.data(), old_impulses.size()};
-    const auto number_lasting = std::ranges::count_if(contacts, [&](const auto& c) { return renewed(state, c).lasts; });
+    const auto number_lasting =
+        std::ranges::count_if(contacts, [&](const auto& c) { return renewed(state, c).lasts(); });
     ASSERT_GT(number_lasting, 60);
     ASSERT_LT(number_lasting, k_pairs - 60);
+    const auto fails_by_it_alone = [&](bool Renewed::*condition) {
+        return std::ranges::any_of(contacts, [&](const LastContact& contact) {
+            Renewed one = renewed(state, contact);
+            const bool fails = !(one.*condition);
+            one.*condition = true;
+            return fails && one.lasts();
+        });
+    };
+    for (bool Renewed::*condition : {&Renewed::may_last, &Renewed::in_place, &Renewed::stays, &Renewed::within_reach})
+        ASSERT_TRUE(fails_by_it_alone(condition));
     for (std::size_t sets = 1; sets <= runnable_sets(); ++sets) {
         usable_sets = sets;
         for (uint at_a_time = 1; at_a_time <= 64; at_a_time += 7) { // also such as fill no register
@@ -800,19 +817,19 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
                 const uint count = min(at_a_time, k_pairs - first);
                 const std::uint64_t lasting = renew_last_contacts(state, &contacts[first], count);
                 for (uint i = 0; i < 64; ++i) {
-                    const bool lasts = i < count && renewed(state, contacts[first + i]).lasts;
+                    const bool lasts = i < count && renewed(state, contacts[first + i]).lasts();
                     EXPECT_EQ(lasting >> i & 1u, lasts ? 1u : 0u) << first + i;
                 }
             }
             for (uint i = 0; i < k_pairs; ++i) {
                 const Renewed one = renewed(state, contacts[i]);
-                const Manifold wanted = one.lasts ? one.manifold : untouched;
+                const Manifold wanted = one.lasts() ? one.manifold : untouched;
                 EXPECT_EQ(std::memcmp(&manifolds[i], &wanted, sizeof wanted), 0) << i;
                 for (uint k = 0; k < 4; ++k) {
-                    const ManifoldPoint point = one.lasts ? one.points[k] : no_point;
+                    const ManifoldPoint point = one.lasts() ? one.points[k] : no_point;
                     EXPECT_EQ(std::memcmp(&points[std::size_t{4} * i + k], &point, sizeof point), 0) << i;
                 }
-                if (!one.lasts) {
+                if (!one.lasts()) {
                     EXPECT_EQ(impulses[i].normal, vec4(7.0f)) << i;
                     EXPECT_EQ(separations[i].separation, vec4(7.0f)) << i;
                     continue;

@@ -36,9 +36,19 @@ TEST(Turns, are_known_to_a_part_of_their_largest_component) {
     }
 }
 
+TEST(Turns, of_what_stays_are_nothing) {
+    using namespace engine;
+    std::mt19937 random(10);
+    std::uniform_real_distribution<float> part(-1.0f, 1.0f);
+    for (int round = 0; round < 1000; ++round) {
+        const BodyPose pose{vec3(part(random)), 0,
+                            normalise_quaternion(vec4(part(random), part(random), part(random), part(random)))};
+        EXPECT_EQ(start_of_still(pose).turn, start_at(pose, pose).turn);
+    }
+}
+
 TEST(Turns, of_nothing_are_nothing_and_large_ones_stay_large) {
     const engine::vec3 none = engine::unpack_turn(engine::pack_turn(engine::vec3(0.0f)));
-    EXPECT_EQ(engine::pack_turn(engine::vec3(-0.0f, 0.0f, 0.0f)), engine::start_of_still(engine::BodyPose{}).turn);
     EXPECT_EQ(none, engine::vec3(0.0f));
     for (const float size : {2.0f, 3.0f, 1e6f, 3e38f})
         for (const float sign : {-1.0f, 1.0f}) {
@@ -316,6 +326,75 @@ TEST(Gaps, are_never_larger_than_they_are) {
     }
     EXPECT_GT(apart, 20000u);
     EXPECT_GT(found, 20000u);
+}
+
+/// Two bars that cross, edge on edge, and move and turn on each other by a little: the contact that lasts is what a
+/// collision finds.
+TEST(LastingEdges, are_what_a_collision_finds) {
+    using namespace engine;
+    std::mt19937 random(12);
+    std::uniform_real_distribution<float> part(-1.0f, 1.0f);
+    const auto any = [&](float size) { return vec3(part(random), part(random), part(random)) * size; };
+    const auto turned = [](vec4 rotation, vec3 turn) {
+        return normalise_quaternion(
+            multiply_quaternions(vec4(0.5f * turn.x, 0.5f * turn.y, 0.5f * turn.z, 1.0f), rotation));
+    };
+    Parameters p{};
+    p.dt = 1.0f / 60.0f;
+    p.speculative_distance = 0.012f;
+    p.most_substeps = 8;
+    BodyShape shape{};
+    shape.half_extents = vec3(0.05f, 0.05f, 1.0f);
+    shape.type = k_shape_box | k_kind_rigid << 8;
+    const float up = 0.05f * std::sqrt(2.0f);
+    const vec4 on_edge = turned(vec4(0.0f, 0.0f, 0.0f, 1.0f), vec3(0.0f, 0.0f, 0.828427f)); // by 45 degrees
+    unsigned lasting = 0, at_edges = 0, parallel = 0;
+    for (int round = 0; round < 4000; ++round) {
+        BodyPose a{vec3(0.0f), 0, turned(on_edge, any(0.05f))};
+        const float angle = 3.1f * part(random);
+        const vec4 about(0.0f, std::sin(0.5f * angle), 0.0f, std::cos(0.5f * angle));
+        BodyPose b{vec3(0.1f * part(random), 2.0f * up - 0.002f, 0.1f * part(random)), 0,
+                   turned(multiply_quaternions(about, on_edge), any(0.05f))};
+        const auto collided = [&] {
+            return collide_shapes(a, shape, b, shape, no_carriers(), contact_reach(vec3(0.0f), true, p));
+        };
+        const ContactGeometry first = collided();
+        if (first.count != 1 || first.axis < 6) continue;
+        ++at_edges;
+        Manifold manifold = make_manifold({0, 1}, first, {}, {});
+        Separations separations = make_separations(first);
+        vec3 anchor = first.points[0];
+        for (int step = 0; step < 20; ++step) {
+            const BodyPose before_a = a, before_b = b;
+            a = {a.position + any(5e-6f), 0, turned(a.rotation, any(5e-6f))};
+            b = {b.position + any(5e-6f), 0, turned(b.rotation, any(5e-6f))};
+            const BodyStart start_a = start_at(before_a, a), start_b = start_at(before_b, b);
+            const vec3 offset = before_b.position - before_a.position;
+            const Movement by_a = last_movement(a, start_a), by_b = last_movement(b, start_b);
+            const MeetingPoint meeting = meeting_point(anchor, offset, shape, shape);
+            const LastingAxis axis = lasting_axis(manifold, by_a, by_b, a, b);
+            const float way = way_after(separations, way_between(by_a, by_b, meeting), axis.leverage);
+            const Movement still{vec3(0.0f), vec3(0.0f)};
+            if (!stays(way, still, still, meeting, axis.leverage, p)) {
+                parallel += std::abs(std::sin(angle)) < 0.1f ? 1 : 0;
+                break;
+            }
+            manifold = lasting_manifold(manifold, axis.normal, p);
+            const vec4 opening(opening_at(axis.normal, anchor, offset, by_a, by_b));
+            separations = lasting_separations(separations, opening, way, 1);
+            anchor = lasting_anchor(anchor, offset, by_a, by_b);
+            const ContactGeometry now = collided();
+            ASSERT_EQ(now.count, 1u) << "round " << round;
+            ASSERT_EQ(now.axis, first.axis) << "round " << round;
+            EXPECT_LT(length3(now.normal - manifold.normal), 2e-6f) << "round " << round;
+            EXPECT_NEAR(now.separations[0], separations.separation.x, 1e-6f) << "round " << round;
+            EXPECT_LT(length3(now.points[0] - anchor), 0.375e-3f + 2e-6f) << "round " << round;
+            ++lasting;
+        }
+    }
+    EXPECT_GT(at_edges, 2000u);
+    EXPECT_GT(lasting, 20000u);
+    EXPECT_GT(parallel, 50u); // in one step these turn by too much
 }
 
 } // namespace

@@ -22,8 +22,8 @@ static bool is_in_balance(const CpuState& state, uint body) {
                        state.properties[body].gravity_scale, state.parameters);
 }
 
-/// Of a body that the step moves. Its rest is counted.
-static uint flags_of_moved(CpuState& state, uint body, bool is_touched) {
+/// Of a body that the step moves. Returns its flags then: see MovingBody.
+static uint count_rest_of(CpuState& state, uint body, bool is_touched) {
     const BodyPose& pose = state.poses[body];
     if (state.parameters.rest_steps == 0 || !is_movable(state.shapes[body])) return wake_flags(pose.flags);
     const BodyDelta& delta = state.deltas[body];
@@ -78,7 +78,7 @@ static void finish_bodies_on_cpu(CpuState& state, const Launch& launch) {
             if (is_asleep(state.poses[body]))
                 finish_sleeper(body);
             else if (begin_to_finish(body))
-                moving[count++] = {body, flags_of_moved(state, body, is_noted(body, k_touched))};
+                moving[count++] = {body, count_rest_of(state, body, is_noted(body, k_touched))};
         }
         for (std::uint64_t left = move_bodies(state, moving.data(), count); left != 0; left &= left - 1)
             freeze(state, moving[static_cast<uint>(std::countr_zero(left))].body);

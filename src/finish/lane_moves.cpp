@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "finish/lane_moves.h"
 
-#include "device/cpu/instruction_set.h"
+#include "device/cpu/by_lanes.h"
 
 namespace talus::engine {
 

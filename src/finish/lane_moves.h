@@ -7,7 +7,7 @@
 
 namespace talus::engine {
 
-/// A body that the step moves, and the flags that it has then.
+/// A body that the step moves, and its flags then, but that k_body_placed is taken off as it moves.
 struct MovingBody {
     uint body;
     uint flags;

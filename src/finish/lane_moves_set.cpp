@@ -8,10 +8,9 @@ namespace talus::engine::TALUS_LANES_NAME {
 
 inline std::uint32_t move_bodies(const CpuState& state, const MovingBody* moving, std::uint32_t lanes) {
     std::uint32_t bodies[k_lanes];
-    BodyPose pose;
     for (int lane = 0; lane < k_lanes; ++lane)
         bodies[lane] = moving[lane].body;
-    pose = poses_at(state, bodies);
+    BodyPose pose = poses_at(state, bodies);
     for (int lane = 0; lane < k_lanes; ++lane)
         pose.flags.v[lane] = moving[lane].flags;
     const BodyPose moved = apply_delta(pose, deltas_at(state, bodies));

@@ -6,6 +6,10 @@
 // axis is known from its half extents, so the distances below are the same in closed form.
 // Needs broad_phase/oriented_box.shared.glsl and narrow_phase/contact_geometry.shared.glsl.
 
+// The edges whose cross product an axis is, which is no face's.
+inline uint edge_of_a(uint axis) { return choose(axis >= 12u, 2u, choose(axis >= 9u, 1u, 0u)); }
+inline uint edge_of_b(uint axis) { return axis - 6u - 3u * edge_of_a(axis); }
+
 // An edge contact must be this much less deep than every face contact to be taken (m). A face gives up to four points
 // where an edge gives one, and in a resting stack the two tie.
 const float k_face_preference = 2.5e-3f;

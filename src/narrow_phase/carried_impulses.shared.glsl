@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Warm start: what the points of a pair's last manifold pass on to those of the new one, a pair at a time.
-// Needs narrow_phase/contact_geometry.shared.glsl and narrow_phase/box_axes.shared.glsl.
+// Needs narrow_phase/contact_geometry.shared.glsl.
 
 // A point without a namesake takes the old point nearest to it, if there is one within this distance (m): feature ids
 // flicker when a vertex lies on a side plane, and stacks topple where that costs the impulse.

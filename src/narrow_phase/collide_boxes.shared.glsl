@@ -263,10 +263,6 @@ inline bool is_almost_normal(vec3 across, vec3 axis)
     return along * along > k_almost_normal * k_almost_normal * dot3(across, across);
 }
 
-// The edges whose cross product an axis is, which is no face's.
-inline uint edge_of_a(uint axis) { return choose(axis >= 12u, 2u, choose(axis >= 9u, 1u, 0u)); }
-inline uint edge_of_b(uint axis) { return axis - 6u - 3u * edge_of_a(axis); }
-
 // The axis to collide along: the one that separates the boxes most, or the face that it stands for; where there are two
 // such faces, the last step's if it is one of them. Boxes that do not touch yet have no end of an edge to lose.
 inline uint axis_of_contact(BoxPair p, AxisQuery query, uint old_axis)

@@ -2,7 +2,6 @@
 // CPU twin of collide_pairs.comp.glsl.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <span>
 
 #include "device/cpu/cpu_state.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "device/cpu/instruction_set.h"
+#include "device/cpu/by_lanes.h"
 
 namespace talus::engine {
 

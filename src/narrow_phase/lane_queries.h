@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of several pairs side by side: a pair in each lane of the CPU's vector registers. With the same bits as
+// What is found of several pairs side by side: a pair in each lane of the CPU's vector registers. With the same bits as
 // the formulas for one pair.
 #pragma once
 

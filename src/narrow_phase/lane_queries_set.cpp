@@ -95,14 +95,15 @@ inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContac
     const MeetingPoint meeting = meeting_point(point_0.anchor, offset, shape_a, shape_b);
     const Movement ahead_a = next_movement(velocity_a, p), ahead_b = next_movement(velocity_b, p);
     const Mask may = mask_of(lanes) && may_last(start_a, shape_a, start_b, shape_b);
-    // Of what moves nothing else has to be asked: the way grows only.
-    if (!any_lane(may && stays(old_separations.way, ahead_a, ahead_b, meeting, p))) return 0;
+    // Where all are about to move too far nothing else has to be asked: the way so far only grows.
+    if (!any_lane(may && stays(old_separations.way, ahead_a, ahead_b, meeting, 1.0f, p))) return 0;
 
     const Manifold old = manifolds_at(state.old_manifolds.data, places);
-    const Movement a = last_movement(poses_at(state, bodies.a), start_a);
-    const Movement b = last_movement(poses_at(state, bodies.b), start_b);
-    const Lanes way = way_after(old_separations, way_between(a, b, meeting));
-    const Manifold manifold = lasting_manifold(old, a, b, p);
+    const BodyPose pose_a = poses_at(state, bodies.a), pose_b = poses_at(state, bodies.b);
+    const Movement a = last_movement(pose_a, start_a), b = last_movement(pose_b, start_b);
+    const LastingAxis axis = lasting_axis(old, a, b, pose_a, pose_b);
+    const Lanes way = way_after(old_separations, way_between(a, b, meeting), axis.leverage);
+    const Manifold manifold = lasting_manifold(old, axis.normal, p);
     const ManifoldPoint point_1 = old_point(1), point_2 = old_point(2), point_3 = old_point(3);
     const auto opening = [&](const ManifoldPoint& point) __attribute__((always_inline)) {
         return opening_at(manifold.normal, point.anchor, offset, a, b);
@@ -111,7 +112,7 @@ inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContac
     const Separations separations = lasting_separations(old_separations, openings, way, old.point_count);
     const vec3 motion = motion_between(velocity_a, velocity_b, p);
     const std::uint32_t lasting =
-        bits_of(may && is_of_kind_that_lasts(old, old_separations) && stays(way, ahead_a, ahead_b, meeting, p) &&
+        bits_of(may && was_found_in_place(old_separations) && stays(way, ahead_a, ahead_b, meeting, axis.leverage, p) &&
                 is_within_reach(separations, old.point_count, motion, p));
     if (lasting == 0) return 0;
 

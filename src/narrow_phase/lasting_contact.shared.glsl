@@ -87,25 +87,48 @@ inline bool may_last(BodyStart start_a, BodyShape shape_a, BodyStart start_b, Bo
            !is_sensed(shape_a, shape_b) && !is_sphere(shape_a) && !is_sphere(shape_b);
 }
 
-// Separations::way, after a step of this way.
-inline float way_after(Separations old, float way)
+// The axis of a contact as the bodies lie now.
+struct LastingAxis {
+    vec3 normal;    // unit, from A to B
+    float leverage; // how far the contact moves where its bodies move by 1
+};
+
+// A face's normal turns as the bodies do in the mean. That of two edges is their cross product: it turns, and the place where they are
+// nearest moves along them, by one over the sine between them.
+inline LastingAxis lasting_axis(Manifold old, Movement a, Movement b, BodyPose pose_a, BodyPose pose_b)
 {
-    precise float sum = old.way + way;
+    bool at_face = old.axis < 6u;
+    precise vec3 turn = 0.5f * (a.turn + b.turn);
+    precise vec3 turned = old.normal + cross3(turn, old.normal);
+    vec3 edge_a = axis_of(rotation_axes(pose_a.rotation), edge_of_a(old.axis));
+    vec3 edge_b = axis_of(rotation_axes(pose_b.rotation), edge_of_b(old.axis));
+    vec3 direction = choose(at_face, turned, cross3(edge_a, edge_b));
+    float inverse_length = inverse_sqrt(dot3(direction, direction));
+    LastingAxis axis;
+    axis.normal = scale3(direction, choose(dot3(direction, old.normal) < 0.0f, -inverse_length, inverse_length));
+    axis.leverage = choose(at_face, 1.0f, max(inverse_length, 1.0f));
+    return axis;
+}
+
+// Separations::way, after a step of this way.
+inline float way_after(Separations old, float way, float leverage)
+{
+    precise float sum = old.way + leverage * way;
     return sum;
 }
 
-// Whether the contact of a pair is one of faces, found where the bodies were. The normal of two edges turns by more than these do.
-inline bool is_of_kind_that_lasts(Manifold old, Separations separations)
+// Whether the contact of a pair was found where the bodies were.
+inline bool was_found_in_place(Separations separations)
 {
-    return old.axis < 6u && separations.shift.x == 0.0f && separations.shift.y == 0.0f && separations.shift.z == 0.0f;
+    return separations.shift.x == 0.0f && separations.shift.y == 0.0f && separations.shift.z == 0.0f;
 }
 
 // `way`: way_after the last step. Bodies that are about to move are to be looked at ahead.
-inline bool stays(float way, Movement ahead_a, Movement ahead_b, MeetingPoint point, Parameters p)
+inline bool stays(float way, Movement ahead_a, Movement ahead_b, MeetingPoint point, float leverage, Parameters p)
 {
     float most = k_lasting_way * p.speculative_distance;
-    precise float next_way = way + way_between(ahead_a, ahead_b, point);
-    return next_way <= most; // and not where one is no number
+    precise float next_way = way + leverage * way_between(ahead_a, ahead_b, point);
+    return next_way <= most; // and not where one is no number, as between edges that are parallel
 }
 
 // ---- bodies that are apart ----
@@ -182,18 +205,9 @@ inline Separations lasting_separations(Separations old, vec4 opening, float way,
     return separations;
 }
 
-// The normal turns as the bodies do in the mean.
-inline vec3 lasting_normal(vec3 normal, Movement a, Movement b)
-{
-    precise vec3 turn = 0.5f * (a.turn + b.turn);
-    precise vec3 turned = normal + cross3(turn, normal);
-    precise float scale = inverse_sqrt(dot3(turned, turned));
-    return scale3(turned, scale);
-}
-
-inline Manifold lasting_manifold(Manifold old, Movement a, Movement b, Parameters p)
+inline Manifold lasting_manifold(Manifold old, vec3 normal, Parameters p)
 {
     Manifold manifold = old;
-    manifold.normal = lasting_normal(old.normal, a, b);
+    manifold.normal = normal;
     return carry_over(manifold, old, p);
 }

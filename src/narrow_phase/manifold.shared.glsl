@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From the geometry of a contact to a manifold: the material, and the impulses of the last step.
+// From the geometry of a contact to a manifold: the material, and what it has of the last step but for the impulses of its points
+// (narrow_phase/carried_impulses.shared.glsl).
 // Needs resolution/contact_frame.shared.glsl and resolution/load.shared.glsl.
 
 // Where two bodies ask for different rules, the lower number wins.

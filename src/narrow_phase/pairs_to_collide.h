@@ -6,7 +6,7 @@
 
 namespace talus::engine {
 
-/// That a thread treats together.
+/// Pairs that a thread treats together.
 inline constexpr uint k_pairs_a_part = 64;
 
 /// A part's list. Its entries are the kernel's; k_none ends it where it has fewer than the part has pairs.

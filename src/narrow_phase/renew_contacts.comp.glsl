@@ -101,7 +101,7 @@ struct PairMovement {
 };
 
 // Whether the contact lasts; then it is this step's.
-bool renew(uint pair_index, OldContact old, PairMovement m, BodyShape shape_a, BodyShape shape_b)
+bool renew(uint pair_index, OldContact old, PairMovement m, LastingAxis axis, BodyShape shape_a, BodyShape shape_b)
 {
     vec3 anchor_0 = old.point_0.anchor;
     vec3 anchor_1 = old.point_1.anchor;
@@ -109,13 +109,13 @@ bool renew(uint pair_index, OldContact old, PairMovement m, BodyShape shape_a, B
     vec3 anchor_3 = old.point_3.anchor;
     uint count = old.manifold.point_count;
     MeetingPoint meeting = meeting_point(anchor_0, m.offset, shape_a, shape_b);
-    float way = way_after(old.separations, way_between(m.a, m.b, meeting));
-    Manifold manifold = lasting_manifold(old.manifold, m.a, m.b, parameters);
-    vec3 n = manifold.normal;
+    float way = way_after(old.separations, way_between(m.a, m.b, meeting), axis.leverage);
+    Manifold manifold = lasting_manifold(old.manifold, axis.normal, parameters);
+    vec3 n = axis.normal;
     vec4 opening = vec4(opening_at(n, anchor_0, m.offset, m.a, m.b), opening_at(n, anchor_1, m.offset, m.a, m.b),
                         opening_at(n, anchor_2, m.offset, m.a, m.b), opening_at(n, anchor_3, m.offset, m.a, m.b));
     Separations separations = lasting_separations(old.separations, opening, way, count);
-    bool lasts = is_of_kind_that_lasts(old.manifold, old.separations) && stays(way, m.ahead_a, m.ahead_b, meeting, parameters) &&
+    bool lasts = was_found_in_place(old.separations) && stays(way, m.ahead_a, m.ahead_b, meeting, axis.leverage, parameters) &&
                  is_within_reach(separations, count, m.motion, parameters);
     if (!lasts) return false;
     manifolds[pair_index] = pack(manifold);
@@ -168,7 +168,8 @@ uint treat(uint pair_index)
     Aabb box_a = compute_aabb(make_oriented_box(pose_a, velocity_a, shape_a, parameters));
     Aabb box_b = compute_aabb(make_oriented_box(pose_b, velocity_b, shape_b, parameters));
     if (touched && is_still_candidate(box_a, box_b)) {
-        bool renewed = may && renew(pair_index, old, m, shape_a, shape_b);
+        LastingAxis axis = lasting_axis(old.manifold, m.a, m.b, pose_a, pose_b);
+        bool renewed = may && renew(pair_index, old, m, axis, shape_a, shape_b);
         return renewed ? k_none : pair_index | k_had_contact;
     }
     gap = may ? gap_after(gap, way_between(m.a, m.b, centre_of_smaller(m.offset, shape_a, shape_b))) : 0.0;

@@ -52,8 +52,8 @@ float gap_now(const CpuState& state, uint pair_index) {
     return gap_after(gap, way_between(a, b, centre_of_smaller(offset, shape_a, shape_b)));
 }
 
-/// Whether a pair that had no contact is to be listed; else it has none.
-bool may_touch(CpuState& state, uint pair_index, bool is_near) {
+/// Whether a pair without a contact to renew is to be listed; else it is written that it has none.
+bool list_or_put_none(CpuState& state, uint pair_index, bool is_near) {
     const auto [a, b] = state.pairs[pair_index];
     const vec3 motion = motion_between(state.velocities[a], state.velocities[b], state.parameters);
     const float gap = gap_now(state, pair_index);
@@ -92,7 +92,7 @@ void renew_contacts_on_cpu(CpuState& state, const Launch& launch) {
             if (old_index != k_none) {
                 contacts[contact_count++] = {index, old_index};
                 had_contact |= bit;
-            } else if (may_touch(state, index, (near.now & bit) != 0)) {
+            } else if (list_or_put_none(state, index, (near.now & bit) != 0)) {
                 listed |= bit;
             }
         }

@@ -8,7 +8,6 @@
 //     no_hits.glsl
 //   const bool k_hubs, whether a body may be a hub, and void put_change(uint index, HubChange change)
 //   const bool k_multirate_islands, whether a body may have more sub-steps than a contact of it
-//   void look_early(), called where the bodies of the constraint in hand are known and nothing is made of its record yet
 // as these live in buffers in one kernel and in shared memory in another. The CPU's counterpart is
 // contact_passes.h.
 // Reads: Inertias, Properties, Loads. Reads and writes: Constraints (their impulses), WarmStarts.
@@ -57,6 +56,8 @@ vec4 base_separation;
 ManifoldRows rows;
 ManifoldImpulses impulses;
 
+// Called where the bodies of the constraint in hand are known, and nothing has been made of its record yet. In solve_in_order.glsl it
+// loads their velocities; else it does nothing.
 void look_early();
 
 // `of_hub`: false where its colour is none for hubs. A constant in each call, so that the compiler leaves out what hubs need.
@@ -68,7 +69,7 @@ void take_constraint(uint index, bool of_hub)
     BodyInertia inertia_b = unpack(inertias[c.body_b]);
     body_a = c.body_a;
     body_b = c.body_b;
-    look_early();
+    if (!of_hub) look_early();
     slot_a = slot_of(body_a);
     slot_b = slot_of(body_b);
     counts = c.counts;

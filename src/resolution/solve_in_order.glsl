@@ -270,11 +270,12 @@ void look()
     cells_b = velocities[body_b];
 }
 
-// The last look was in this pass, at the contact in hand, and has not been used.
+// The last look was at the contact in hand, and has not been used. Cleared where a pass begins.
 bool has_looked = false;
 
-// Most contacts of a heap need not wait: the first look at their bodies is loaded while the rest of their records are. Where a
-// worker has one or two contacts it is others they wait for, and it only takes registers (docs/performance.md).
+// Most contacts of large heaps, which the kernel for multirate islands solves, need not wait: the first look at their bodies is loaded
+// while the rest of their records are. In the other kernel a worker has one contact or two, which wait for others, and the early
+// look only takes registers (docs/performance.md).
 void look_early()
 {
     if (!k_multirate_islands) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shared formulas of the narrow phase and of the solver, on several items at once: the same files, with lanes for
-// numbers. What a formula decides item by item it has to say by choose(), all_lanes() and any_lane(); one that does not
-// can be compiled, but not be linked.
+// Shared formulas of the narrow phase, of the solver and of the end of a step, on several items at once: the same
+// files, with lanes for numbers. What a formula decides item by item it has to say by choose(), all_lanes() and
+// any_lane(); one that does not can be compiled, but not be linked.
 #pragma once
 
 #include "device/cpu/lanes.h"
