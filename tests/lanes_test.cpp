@@ -696,6 +696,7 @@ TEST(Lanes, find_near_as_one_at_a_time) {
 /// What a pair's contact in the last step becomes in this one.
 struct Renewed {
     bool may_last = false, in_place = false, stays = false, within_reach = false;
+    bool stays_at_a_face = false; ///< would it, if it were one of faces
     Manifold manifold{};
     Separations separations{};
     ManifoldPoint points[4]{};
@@ -728,6 +729,8 @@ Renewed renewed(const CpuState& state, const LastContact& contact) {
     made.may_last = may_last(start_a, shape_a, start_b, shape_b);
     made.in_place = was_found_in_place(old_separations);
     made.stays = stays(way, next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, axis.leverage, p);
+    made.stays_at_a_face = stays(way_after(old_separations, way_between(a, b, meeting), 1.0f),
+                                 next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, 1.0f, p);
     made.within_reach =
         is_within_reach(made.separations, old.point_count, motion_between(velocity_a, velocity_b, p), p);
     return made;
@@ -800,6 +803,15 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
     };
     for (bool Renewed::*condition : {&Renewed::may_last, &Renewed::in_place, &Renewed::stays, &Renewed::within_reach})
         ASSERT_TRUE(fails_by_it_alone(condition));
+    const auto is_of_edges = [&](const LastContact& contact) { return old_manifolds[contact.manifold].axis >= 6; };
+    ASSERT_TRUE(
+        std::ranges::any_of(contacts, [&](const auto& c) { return is_of_edges(c) && renewed(state, c).lasts(); }));
+    ASSERT_TRUE(std::ranges::any_of(contacts, [&](const auto& c) {
+        Renewed one = renewed(state, c);
+        const bool turns_too_far = one.stays_at_a_face && !one.stays;
+        one.stays = true;
+        return turns_too_far && one.lasts();
+    }));
     for (std::size_t sets = 1; sets <= runnable_sets(); ++sets) {
         usable_sets = sets;
         for (uint at_a_time = 1; at_a_time <= 64; at_a_time += 7) { // also such as fill no register

@@ -376,7 +376,7 @@ TEST(LastingEdges, are_what_a_collision_finds) {
             const float way = way_after(separations, way_between(by_a, by_b, meeting), axis.leverage);
             const Movement still{vec3(0.0f), vec3(0.0f)};
             if (!stays(way, still, still, meeting, axis.leverage, p)) {
-                parallel += std::abs(std::sin(angle)) < 0.1f ? 1 : 0;
+                parallel += step == 0 ? 1 : 0;
                 break;
             }
             manifold = lasting_manifold(manifold, axis.normal, p);
@@ -386,7 +386,7 @@ TEST(LastingEdges, are_what_a_collision_finds) {
             const ContactGeometry now = collided();
             ASSERT_EQ(now.count, 1u) << "round " << round;
             ASSERT_EQ(now.axis, first.axis) << "round " << round;
-            EXPECT_LT(length3(now.normal - manifold.normal), 2e-6f) << "round " << round;
+            EXPECT_EQ(now.normal, manifold.normal) << "round " << round;
             EXPECT_NEAR(now.separations[0], separations.separation.x, 1e-6f) << "round " << round;
             EXPECT_LT(length3(now.points[0] - anchor), 0.375e-3f + 2e-6f) << "round " << round;
             ++lasting;
@@ -394,7 +394,7 @@ TEST(LastingEdges, are_what_a_collision_finds) {
     }
     EXPECT_GT(at_edges, 2000u);
     EXPECT_GT(lasting, 20000u);
-    EXPECT_GT(parallel, 50u); // in one step these turn by too much
+    EXPECT_GT(parallel, 4u); // some are so nearly, and move so far along each other in one step
 }
 
 } // namespace

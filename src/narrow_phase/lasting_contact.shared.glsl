@@ -3,7 +3,7 @@
 // Needs narrow_phase/manifold.shared.glsl, narrow_phase/box_axes.shared.glsl, broad_phase/oriented_box.shared.glsl and
 // finish/body_start.shared.glsl.
 
-// How far bodies may have moved on each other since they were collided (m), as a part of how far ahead contacts are seen.
+// How far a contact may have moved since its bodies were collided (m; see LastingAxis), as a part of how far ahead contacts are seen.
 const float k_lasting_way = 1.0f / 32.0f;
 
 // The last step's turns are known to a 256th of their largest component, and are taken for vectors: an error of up to this part of
@@ -128,7 +128,7 @@ inline bool stays(float way, Movement ahead_a, Movement ahead_b, MeetingPoint po
 {
     float most = k_lasting_way * p.speculative_distance;
     precise float next_way = way + leverage * way_between(ahead_a, ahead_b, point);
-    return next_way <= most; // and not where one is no number, as between edges that are parallel
+    return next_way <= most; // and not where one is no number
 }
 
 // ---- bodies that are apart ----

@@ -154,7 +154,7 @@ struct ManifoldPoint {
 struct Separations {
     vec4 separation; // m of each point, negative = overlap; 0 where there is none
     vec3 shift;      // m: B is this far on, as seen from A, where the bodies meet
-    float way;       // m, by which the bodies have moved on each other since they were collided: see lasting_contact.shared.glsl
+    float way;       // m, by which the contact has moved at most since its bodies were collided: see lasting_contact.shared.glsl
 };
 
 // 16 bytes, one a pair: what its points start from in the next step. Not in the points, as the solver writes in an order of its
