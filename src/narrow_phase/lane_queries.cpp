@@ -17,35 +17,34 @@ static const LaneQueries& lane_queries() {
 NearPairs find_near(const CpuState& state, const Pair* pairs, uint count) {
     const LaneQueries& queries = lane_queries();
     NearPairs all{};
-    uint done = 0;
-    const auto add = [&](const NearPairs& some, std::uint64_t asked) {
-        all.now |= (some.now & asked) << done;
-        all.still |= (some.still & asked) << done;
-    };
-    for (; done + queries.lanes <= count; done += queries.lanes)
-        add(queries.find_near(state, pairs + done), ~std::uint64_t{0});
-    if (done < count)
-        add(queries.find_near(state, filled_up(pairs + done, pairs + count).data()),
-            (std::uint64_t{1} << (count - done)) - 1);
+    by_lanes(queries.lanes, pairs, count, [&](uint done, const Pair* some, uint active) {
+        const NearPairs near = queries.find_near(state, some);
+        all.now |= (near.now & active) << done;
+        all.still |= (near.still & active) << done;
+    });
     return all;
 }
 
 void collide_box_pairs(const CpuState& state, const BoxQuestion* questions, uint count, ContactGeometry* answers) {
     const LaneQueries& queries = lane_queries();
-    uint done = 0;
-    for (; done + queries.lanes <= count; done += queries.lanes)
-        queries.collide_box_pairs(state, questions + done, answers + done);
-    if (done == count) return;
-    std::array<ContactGeometry, k_most_lanes> rest;
-    queries.collide_box_pairs(state, filled_up(questions + done, questions + count).data(), rest.data());
-    std::copy_n(rest.begin(), count - done, answers + done);
+    by_lanes(queries.lanes, questions, count, [&](uint done, const BoxQuestion* some, uint) {
+        if (done + queries.lanes <= count) {
+            queries.collide_box_pairs(state, some, answers + done);
+        } else {
+            std::array<ContactGeometry, k_most_lanes> rest;
+            queries.collide_box_pairs(state, some, rest.data());
+            std::copy_n(rest.begin(), count - done, answers + done);
+        }
+    });
 }
 
 std::uint64_t renew_last_contacts(const CpuState& state, const LastContact* contacts, uint count) {
     const LaneQueries& queries = lane_queries();
-    return by_lanes(queries.lanes, contacts, count, [&](const LastContact* some, uint lanes) {
-        return queries.renew_last_contacts(state, some, lanes);
+    std::uint64_t lasting = 0;
+    by_lanes(queries.lanes, contacts, count, [&](uint done, const LastContact* some, uint active) {
+        lasting |= std::uint64_t{queries.renew_last_contacts(state, some, active)} << done;
     });
+    return lasting;
 }
 
 } // namespace talus::engine

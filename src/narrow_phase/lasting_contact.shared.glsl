@@ -100,9 +100,12 @@ inline LastingAxis lasting_axis(Manifold old, Movement a, Movement b, BodyPose p
     bool at_face = old.axis < 6u;
     precise vec3 turn = 0.5f * (a.turn + b.turn);
     precise vec3 turned = old.normal + cross3(turn, old.normal);
-    vec3 edge_a = axis_of(rotation_axes(pose_a.rotation), edge_of_a(old.axis));
-    vec3 edge_b = axis_of(rotation_axes(pose_b.rotation), edge_of_b(old.axis));
-    vec3 direction = choose(at_face, turned, cross3(edge_a, edge_b));
+    vec3 direction = turned;
+    if (any_lane(!at_face)) {
+        vec3 edge_a = axis_of(rotation_axes(pose_a.rotation), edge_of_a(old.axis));
+        vec3 edge_b = axis_of(rotation_axes(pose_b.rotation), edge_of_b(old.axis));
+        direction = choose_active(!at_face, cross3(edge_a, edge_b), turned);
+    }
     float inverse_length = inverse_sqrt(dot3(direction, direction));
     LastingAxis axis;
     axis.normal = scale3(direction, choose(dot3(direction, old.normal) < 0.0f, -inverse_length, inverse_length));

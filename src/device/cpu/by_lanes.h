@@ -18,20 +18,17 @@ template <typename T> std::array<T, k_most_lanes> filled_up(const T* first, cons
     return all;
 }
 
-/// Calls `treat` for at most 64 items, as many at a time as there are lanes, with a bit for each lane that has one.
-/// Returns what it returns of each, a bit an item.
+/// Calls `treat(done, some, active)` for all items, as many at a time as there are lanes: how many were treated before,
+/// the items, and a bit for each lane that has one.
 template <typename T, typename Treat>
-std::uint64_t by_lanes(std::uint32_t lanes, const T* items, std::uint32_t count, const Treat& treat) {
+void by_lanes(std::uint32_t lanes, const T* items, std::uint32_t count, const Treat& treat) {
     const std::uint32_t all = (1u << lanes) - 1;
-    std::uint64_t bits = 0;
     std::uint32_t done = 0;
     for (; done + lanes <= count; done += lanes)
-        bits |= std::uint64_t{treat(items + done, all)} << done;
-    if (done < count) {
-        const auto rest = filled_up(items + done, items + count);
-        bits |= std::uint64_t{treat(rest.data(), all >> (done + lanes - count))} << done;
-    }
-    return bits;
+        treat(done, items + done, all);
+    if (done == count) return;
+    const auto rest = filled_up(items + done, items + count);
+    treat(done, rest.data(), all >> (done + lanes - count));
 }
 
 } // namespace talus::engine
