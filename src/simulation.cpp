@@ -535,6 +535,7 @@ void Simulation::enqueue(Pending entry) {
     now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || placement.hybrid() ||
                       !has_the_graph_of(now, newest_plan);
     now.makes_graph = now.other_graph || !graph_lasts.holds();
+    now.ends_old_contacts = (step_count() + 1) % k_steps_between_ends == 0;
     now.records_last = !std::exchange(other_records, false) && now.sleeping && newest_plan.constraints_beside;
     if (now.awaits_kernels != newest_plan.awaits_kernels)
         log(LogLevel::Info, now.awaits_kernels

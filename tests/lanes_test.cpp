@@ -704,7 +704,7 @@ struct Renewed {
     bool lasts() const { return may_last && in_place && stays && within_reach; }
 };
 
-Renewed renewed(const CpuState& state, const LastContact& contact) {
+Renewed renewed(const CpuState& state, const LastContact& contact, float most) {
     const Parameters& p = state.parameters;
     const auto [body_a, body_b] = state.pairs[contact.pair];
     const BodyStart &start_a = state.starts[body_a], &start_b = state.starts[body_b];
@@ -728,9 +728,9 @@ Renewed renewed(const CpuState& state, const LastContact& contact) {
     made.separations = lasting_separations(old_separations, opening, way, old.point_count);
     made.may_last = may_last(start_a, shape_a, start_b, shape_b);
     made.in_place = was_found_in_place(old_separations);
-    made.stays = stays(way, next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, axis.leverage, p);
+    made.stays = stays(way, next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, axis.leverage, most);
     made.stays_at_a_face = stays(way_after(old_separations, way_between(a, b, meeting), 1.0f),
-                                 next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, 1.0f, p);
+                                 next_movement(velocity_a, p), next_movement(velocity_b, p), meeting, 1.0f, most);
     made.within_reach =
         is_within_reach(made.separations, old.point_count, motion_between(velocity_a, velocity_b, p), p);
     return made;
@@ -783,6 +783,7 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
     CpuState state = items.state();
     state.parameters.speculative_distance = 0.012f;
     state.parameters.most_substeps = 16; // fewer than some ask for
+    const float most = most_way(false, state.parameters);
     state.starts = {starts.data(), starts.size()};
     state.pairs = {pairs.data(), pairs.size()};
     state.old_manifolds = {old_manifolds.data(), old_manifolds.size()};
@@ -790,12 +791,12 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
     state.old_point_separations = {old_separations.data(), old_separations.size()};
     state.old_point_impulses = {old_impulses.data(), old_impulses.size()};
     const auto number_lasting =
-        std::ranges::count_if(contacts, [&](const auto& c) { return renewed(state, c).lasts(); });
+        std::ranges::count_if(contacts, [&](const auto& c) { return renewed(state, c, most).lasts(); });
     ASSERT_GT(number_lasting, 60);
     ASSERT_LT(number_lasting, k_pairs - 60);
     const auto fails_by_it_alone = [&](bool Renewed::*condition) {
         return std::ranges::any_of(contacts, [&](const LastContact& contact) {
-            Renewed one = renewed(state, contact);
+            Renewed one = renewed(state, contact, most);
             const bool fails = !(one.*condition);
             one.*condition = true;
             return fails && one.lasts();
@@ -805,9 +806,9 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
         ASSERT_TRUE(fails_by_it_alone(condition));
     const auto is_of_edges = [&](const LastContact& contact) { return old_manifolds[contact.manifold].axis >= 6; };
     ASSERT_TRUE(
-        std::ranges::any_of(contacts, [&](const auto& c) { return is_of_edges(c) && renewed(state, c).lasts(); }));
+        std::ranges::any_of(contacts, [&](const auto& c) { return is_of_edges(c) && renewed(state, c, most).lasts(); }));
     ASSERT_TRUE(std::ranges::any_of(contacts, [&](const auto& c) {
-        Renewed one = renewed(state, c);
+        Renewed one = renewed(state, c, most);
         const bool turns_too_far = one.stays_at_a_face && !one.stays;
         one.stays = true;
         return turns_too_far && one.lasts();
@@ -827,14 +828,14 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
             state.point_impulses = {impulses.data(), impulses.size()};
             for (uint first = 0; first < k_pairs; first += at_a_time) {
                 const uint count = min(at_a_time, k_pairs - first);
-                const std::uint64_t lasting = renew_last_contacts(state, &contacts[first], count);
+                const std::uint64_t lasting = renew_last_contacts(state, &contacts[first], count, most);
                 for (uint i = 0; i < 64; ++i) {
-                    const bool lasts = i < count && renewed(state, contacts[first + i]).lasts();
+                    const bool lasts = i < count && renewed(state, contacts[first + i], most).lasts();
                     EXPECT_EQ(lasting >> i & 1u, lasts ? 1u : 0u) << first + i;
                 }
             }
             for (uint i = 0; i < k_pairs; ++i) {
-                const Renewed one = renewed(state, contacts[i]);
+                const Renewed one = renewed(state, contacts[i], most);
                 const Manifold wanted = one.lasts() ? one.manifold : untouched;
                 EXPECT_EQ(std::memcmp(&manifolds[i], &wanted, sizeof wanted), 0) << i;
                 for (uint k = 0; k < 4; ++k) {

@@ -38,11 +38,11 @@ void collide_box_pairs(const CpuState& state, const BoxQuestion* questions, uint
     });
 }
 
-std::uint64_t renew_last_contacts(const CpuState& state, const LastContact* contacts, uint count) {
+std::uint64_t renew_last_contacts(const CpuState& state, const LastContact* contacts, uint count, float most) {
     const LaneQueries& queries = lane_queries();
     std::uint64_t lasting = 0;
     by_lanes(queries.lanes, contacts, count, [&](uint done, const LastContact* some, uint active) {
-        lasting |= std::uint64_t{queries.renew_last_contacts(state, some, active)} << done;
+        lasting |= std::uint64_t{queries.renew_last_contacts(state, some, active, most)} << done;
     });
     return lasting;
 }

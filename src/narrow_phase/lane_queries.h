@@ -35,8 +35,8 @@ struct LaneQueries {
     NearPairs (*find_near)(const CpuState&, const Pair*);
     /// Answers as many questions as there are lanes.
     void (*collide_box_pairs)(const CpuState&, const BoxQuestion*, ContactGeometry*);
-    /// Of as many contacts as there are lanes those in `lanes`, a bit each. Returns those that last.
-    uint (*renew_last_contacts)(const CpuState&, const LastContact*, uint lanes);
+    /// Of as many contacts as there are lanes those in `lanes`, a bit each; `most`: most_way. Returns those that last.
+    uint (*renew_last_contacts)(const CpuState&, const LastContact*, uint lanes, float most);
 };
 
 /// Of at most 64 pairs, with the widest registers that this machine has.
@@ -45,7 +45,8 @@ NearPairs find_near(const CpuState&, const Pair*, uint count);
 /// Answers `count` questions, as many side by side as the widest registers of this machine have lanes.
 void collide_box_pairs(const CpuState&, const BoxQuestion*, uint count, ContactGeometry*);
 
-/// Writes those of at most 64 contacts that last, as they are in this step. Returns which these are, a bit each.
-std::uint64_t renew_last_contacts(const CpuState&, const LastContact*, uint count);
+/// Writes those of at most 64 contacts that last, as they are in this step; `most`: most_way. Returns which these are, a
+/// bit each.
+std::uint64_t renew_last_contacts(const CpuState&, const LastContact*, uint count, float most);
 
 } // namespace talus::engine

@@ -69,7 +69,8 @@ inline void collide_box_pairs(const CpuState& state, const BoxQuestion* question
     put_geometries(collide_boxes(boxes, carriers, contact_reach(motion, had_contact != 0u, state.parameters)), answers);
 }
 
-inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContact* contacts, std::uint32_t lanes) {
+inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContact* contacts, std::uint32_t lanes,
+                                         float most) {
     std::uint32_t pairs[k_lanes], places[k_lanes];
     BodiesOfPairs bodies;
     for (int lane = 0; lane < k_lanes; ++lane) {
@@ -96,7 +97,7 @@ inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContac
     const Movement ahead_a = next_movement(velocity_a, p), ahead_b = next_movement(velocity_b, p);
     const Mask may = mask_of(lanes) && may_last(start_a, shape_a, start_b, shape_b);
     // Where all are about to move too far nothing else has to be asked: the way so far only grows.
-    if (!any_lane(may && stays(old_separations.way, ahead_a, ahead_b, meeting, 1.0f, p))) return 0;
+    if (!any_lane(may && stays(old_separations.way, ahead_a, ahead_b, meeting, 1.0f, most))) return 0;
 
     const Manifold old = manifolds_at(state.old_manifolds.data, places);
     const BodyPose pose_a = poses_at(state, bodies.a), pose_b = poses_at(state, bodies.b);
@@ -112,7 +113,7 @@ inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContac
     const Separations separations = lasting_separations(old_separations, openings, way, old.point_count);
     const vec3 motion = motion_between(velocity_a, velocity_b, p);
     const std::uint32_t lasting =
-        bits_of(may && was_found_in_place(old_separations) && stays(way, ahead_a, ahead_b, meeting, axis.leverage, p) &&
+        bits_of(may && was_found_in_place(old_separations) && stays(way, ahead_a, ahead_b, meeting, axis.leverage, most) &&
                 is_within_reach(separations, old.point_count, motion, p));
     if (lasting == 0) return 0;
 

@@ -19,7 +19,10 @@ void narrow_phase(Device& device, const StepPlan& plan) {
     if (plan.search == Search::All || plan.watch != ContactWatch::None) index_old_manifolds(device);
     const std::initializer_list<Binding> list{
         {"PairsToCollide", BufferId::Uncoloured}}; // nobody wants that before the graph
-    device.run({.kernel = renew_contacts, .slot = k_dispatch_pairs, .args = {plan.records_last}, .bindings = list});
+    device.run({.kernel = renew_contacts,
+                .slot = k_dispatch_pairs,
+                .args = {plan.records_last, plan.ends_old_contacts},
+                .bindings = list});
     device.run({.kernel = collide_pairs, .slot = k_dispatch_pairs, .bindings = list});
 }
 

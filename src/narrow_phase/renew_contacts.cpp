@@ -68,6 +68,7 @@ void renew_contacts_on_cpu(CpuState& state, const Launch& launch) {
     const uint pair_count = state.counters[k_counter_pair_count];
     const bool is_old_list =
         launch.args[0] == 1 && state.counters[k_counter_pairs_changed] == 0 && state.counters[k_counter_same_list] != 0;
+    const float most = most_way(launch.args[1] == 1, state.parameters);
     const bool may_sleep = state.parameters.rest_steps > 0;
     std::atomic<uint> count = 0;
     const auto renew_part = [&](uint, uint first, uint end) {
@@ -96,7 +97,7 @@ void renew_contacts_on_cpu(CpuState& state, const Launch& launch) {
                 listed |= bit;
             }
         }
-        const std::uint64_t lasting = renew_last_contacts(state, contacts.data(), contact_count);
+        const std::uint64_t lasting = renew_last_contacts(state, contacts.data(), contact_count, most);
         for (uint i = 0; i < contact_count; ++i) {
             if ((lasting >> i & 1u) == 0) listed |= std::uint64_t{1} << (contacts[i].pair - first);
         }

@@ -55,6 +55,7 @@ vec3 gap_at_start;
 vec4 base_separation;
 ManifoldRows rows;
 ManifoldImpulses impulses;
+bool has_other_impulses; // than its record
 
 // Called where the bodies of the constraint in hand are known, and nothing has been made of its record yet. In solve_in_order.glsl it
 // loads their velocities; else it does nothing.
@@ -83,15 +84,18 @@ void take_constraint(uint index, bool of_hub)
     base_separation = c.base_separation;
     rows = make_rows(c, inertia_a, inertia_b);
     impulses = make_impulses(c);
+    has_other_impulses = false;
 }
 
 // In the last cells of the record: see ContactConstraint.
 void put_back_impulses(uint index)
 {
-    cell_in_block(constraints, index, k_first_changing).xyz = floatBitsToUint(impulses.friction); // beside hub_share
-    cell_in_block(constraints, index, k_first_changing + 1u) = uvec4(floatBitsToUint(impulses.slip), floatBitsToUint(load_speed));
-    cell_in_block(constraints, index, k_first_changing + 2u) = floatBitsToUint(impulses.normal);
-    cell_in_block(constraints, index, k_first_changing + 3u) = floatBitsToUint(impulses.total);
+    if (has_other_impulses) {
+        cell_in_block(constraints, index, k_first_changing).xyz = floatBitsToUint(impulses.friction); // beside hub_share
+        cell_in_block(constraints, index, k_first_changing + 1u) = uvec4(floatBitsToUint(impulses.slip), floatBitsToUint(load_speed));
+        cell_in_block(constraints, index, k_first_changing + 2u) = floatBitsToUint(impulses.normal);
+        cell_in_block(constraints, index, k_first_changing + 3u) = floatBitsToUint(impulses.total);
+    }
 }
 
 // What the contact in hand needs to know of its sub-steps, with such a load. Defined behind this file, by solve_substeps.glsl or
@@ -100,10 +104,15 @@ Substep substep_in_hand(float present_load_speed);
 
 vec3 slip_of_target; // m: Slip::apart
 
-PassTarget target_of_pass(uint pass)
+// `have_moved`: false where no body has in this step.
+PassTarget target_of_pass(uint pass, bool have_moved)
 {
-    BodyDelta delta_a = load_delta(body_a, slot_a);
-    BodyDelta delta_b = load_delta(body_b, slot_b);
+    BodyDelta delta_a = no_delta();
+    BodyDelta delta_b = no_delta();
+    if (have_moved) {
+        delta_a = load_delta(body_a, slot_a);
+        delta_b = load_delta(body_b, slot_b);
+    }
     float present_load_speed = load_speed_so_far(load_speed, rows, impulses);
     Substep substep = substep_in_hand(present_load_speed);
     PassTarget target;
@@ -212,6 +221,7 @@ VelocityPair solve_constraint(uint pass, uint index, PassTarget target, Velocity
         if (is_hit && !is_of_next_step) solved = pass_over_hit(index, target.old_share);
         if (!is_of_next_step && is_finite_pair(solved.velocities)) { // what has gone wrong here is kept from the bodies
             impulses = solved.impulses;
+            has_other_impulses = true;
             velocities = solved.velocities;
         }
     }

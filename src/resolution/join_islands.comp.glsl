@@ -25,11 +25,10 @@ layout(std430) buffer Substeps { uint substeps[]; };
 layout(std430) buffer IslandSizes { uint island_sizes[]; };
 layout(std430) buffer IslandFill { uint island_fill[]; };
 
-// The root of a body's tree. On the way each body is led to its grandparent: an invocation that still sees the parent
-// finds the same root, later.
-uint root_of(uint body)
+// The root of the tree of a body with this parent. On the way each body is led to its grandparent: an invocation that still sees
+// the parent finds the same root, later.
+uint root_of(uint body, uint parent)
 {
-    uint parent = islands[body];
     while (parent != body) {
         uint grandparent = islands[parent];
         if (grandparent != parent) islands[body] = grandparent;
@@ -39,10 +38,10 @@ uint root_of(uint body)
     return body;
 }
 
-void join(uint body_a, uint body_b)
+void join(uint body_a, uint parent_a, uint body_b, uint parent_b)
 {
-    uint root_a = root_of(body_a);
-    uint root_b = root_of(body_b);
+    uint root_a = root_of(body_a, parent_a);
+    uint root_b = root_of(body_b, parent_b);
     while (root_a != root_b) {
         bool a_stays = order_of_root(root_a) < order_of_root(root_b);
         uint root = a_stays ? root_a : root_b;
@@ -50,8 +49,8 @@ void join(uint body_a, uint body_b)
         uint found = atomicCompSwap(islands[other], other, root);
         if (found == other) return;
         // Somebody else has hung it elsewhere meanwhile.
-        root_a = root_of(found);
-        root_b = root_of(root);
+        root_a = root_of(found, islands[found]);
+        root_b = root_of(root, islands[root]);
     }
 }
 
@@ -61,10 +60,11 @@ void note(uint body, uint what)
     if ((island_fill[body] & what) == 0u) atomicOr(island_fill[body], what);
 }
 
+// Most ask for the fewest, which each body has, and have no foot rate.
 void ask_for_substeps(uint body, uint demand)
 {
-    atomicMax(substeps[body], substeps_of(demand));
-    if (foot_rate_at(island_sizes[body]) < foot_rate_of(demand))
+    if (substeps_of(demand) > parameters.fewest_substeps) atomicMax(substeps[body], substeps_of(demand));
+    if (foot_rate_of(demand) > 0u && foot_rate_at(island_sizes[body]) < foot_rate_of(demand))
         atomicMax(island_sizes[body], foot_rate_of(demand) << k_foot_rate_shift);
     if (is_in_tall_column(demand)) note(body, k_tall);
 }
@@ -79,8 +79,10 @@ void main()
     if (args.x == k_join_to_sleep && is_quiet(pairs[pair].body_a) && is_quiet(pairs[pair].body_b)) return;
     Manifold manifold = unpack(manifolds[pair]);
     if (!is_active(manifold)) return;
-    bool pushes_a = islands[manifold.body_a] != k_none;
-    bool pushes_b = islands[manifold.body_b] != k_none;
+    uint parent_a = islands[manifold.body_a];
+    uint parent_b = islands[manifold.body_b];
+    bool pushes_a = parent_a != k_none;
+    bool pushes_b = parent_b != k_none;
     if (args.x == k_join_to_sleep) {
         if ((island_fill[manifold.body_a] & k_restless) != 0u) note(manifold.body_b, k_touched);
         if ((island_fill[manifold.body_b] & k_restless) != 0u) note(manifold.body_a, k_touched);
@@ -91,5 +93,5 @@ void main()
         if (pushes_a) ask_for_substeps(manifold.body_a, manifold.demand);
         if (pushes_b) ask_for_substeps(manifold.body_b, manifold.demand);
     }
-    if (pushes_a && pushes_b) join(manifold.body_a, manifold.body_b);
+    if (pushes_a && pushes_b) join(manifold.body_a, parent_a, manifold.body_b, parent_b);
 }

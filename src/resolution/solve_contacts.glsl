@@ -64,8 +64,8 @@ void main()
         if (substep >= substeps_of_contact(cell_in_block(constraints, index, 0u).w)) continue;
         take_constraint(index, k_hubs);
         PassTarget target;
-        if (args.y != k_warm_start) target = target_of_pass(args.y);
+        if (args.y != k_warm_start) target = target_of_pass(args.y, true);
         pass_over_constraint(args.y, args.z, index, target);
-        if (args.y != k_warm_start) put_back_impulses(index);
+        put_back_impulses(index);
     }
 }
