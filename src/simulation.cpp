@@ -432,6 +432,7 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     StepPlan now = plan;
     now.body_count = population.slots;
     now.small = population.slots <= k_island_bodies;
+    now.collides_early = collides_early(step_count() + 1);
     set_passes(now, settings);
     now.broad_phase = settings.broad_phase;
     if (now.broad_phase == BroadPhase::Auto) now.broad_phase = now.small ? BroadPhase::SweepAndPrune : BroadPhase::Bvh;
@@ -535,7 +536,6 @@ void Simulation::enqueue(Pending entry) {
     now.other_graph = std::exchange(other_graph, false) || changes_the_graph(entry.changes) || placement.hybrid() ||
                       !has_the_graph_of(now, newest_plan);
     now.makes_graph = now.other_graph || !graph_lasts.holds();
-    now.ends_old_contacts = (step_count() + 1) % k_steps_between_ends == 0;
     now.records_last = !std::exchange(other_records, false) && now.sleeping && newest_plan.constraints_beside;
     if (now.awaits_kernels != newest_plan.awaits_kernels)
         log(LogLevel::Info, now.awaits_kernels

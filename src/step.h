@@ -27,8 +27,12 @@ enum class Search : uint { None = k_search_none, Strays = k_search_strays, All =
 /// Of so many groups that a GPU can run at a time, the persistent launch leaves out one for other launches.
 inline constexpr uint k_groups_a_spare = 64;
 
-/// In every such step contacts are found anew that would be in the steps behind it, one by one.
-inline constexpr uint k_steps_between_ends = 16;
+/// Whether such a step, by its number, collides all contacts that have nearly had their way, together (most_way). Else
+/// one or two would have had it in each step.
+inline bool collides_early(std::uint64_t step) {
+    constexpr std::uint64_t k_steps_apart = 16;
+    return step % k_steps_apart == 0;
+}
 
 /// What the host knows of a step before it runs: how large launches may be, and which passes there are.
 struct StepPlan {
@@ -39,7 +43,7 @@ struct StepPlan {
     bool other_graph = false;        ///< the host knows that it is not the last step's; has makes_graph too
     uint pair_capacity = 0;          ///< room in the buffers that have a record a pair
     uint manifold_capacity = 0;      ///< room for the manifolds that are solved
-    bool ends_old_contacts = false;  ///< those that last, and would end in the next steps, are found anew in this one
+    bool collides_early = false;     ///< see the function of this name
     bool constraints_beside = false; ///< they lie over no contacts: the next step may find those of this one's old ones
     bool records_last = false;       ///< so it was in the last step, whose records of bodies are there, too
     uint near_pairs = 1u << 20;      ///< whose records are quick to reach in any order, as they lie close together

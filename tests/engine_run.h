@@ -131,8 +131,11 @@ public:
     engine::Simulation simulation;
 
 private:
-    engine::StepPlan plan_for_any_demand() const {
+    engine::uint uncounted_steps = 0; ///< which the simulation does not know of
+
+    engine::StepPlan plan_for_any_demand() {
         engine::StepPlan plan = simulation.plan_step(table.population());
+        plan.collides_early = engine::collides_early(simulation.step_count() + ++uncounted_steps);
         plan.substep_capacity = plan.most_substeps;
         plan.colour_capacity = engine::k_first_hub_colour;
         plan.overflow = true;

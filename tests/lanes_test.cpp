@@ -805,8 +805,8 @@ TEST(Lanes, renew_contacts_with_the_bits_of_one_at_a_time) {
     for (bool Renewed::*condition : {&Renewed::may_last, &Renewed::in_place, &Renewed::stays, &Renewed::within_reach})
         ASSERT_TRUE(fails_by_it_alone(condition));
     const auto is_of_edges = [&](const LastContact& contact) { return old_manifolds[contact.manifold].axis >= 6; };
-    ASSERT_TRUE(
-        std::ranges::any_of(contacts, [&](const auto& c) { return is_of_edges(c) && renewed(state, c, most).lasts(); }));
+    ASSERT_TRUE(std::ranges::any_of(contacts,
+                                    [&](const auto& c) { return is_of_edges(c) && renewed(state, c, most).lasts(); }));
     ASSERT_TRUE(std::ranges::any_of(contacts, [&](const auto& c) {
         Renewed one = renewed(state, c, most);
         const bool turns_too_far = one.stays_at_a_face && !one.stays;

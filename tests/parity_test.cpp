@@ -51,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Parity,
                          testing::Values(Case{"stack", 0}, Case{"stack", 30}, Case{"pool:boxes=100", 90},
                                          Case{"extreme_stack", 5}, Case{"pyramid:base=10", 30},
                                          Case{"wall:width=10,height=8", 30}, Case{"columns:side=11,height=10", 5},
-                                         Case{"grid:stacks=30", 10}, Case{"pile:boxes=150", 90}));
+                                         Case{"grid:stacks=30", 10}, Case{"pile:boxes=150", 90},
+                                         Case{"pile:boxes=150", 95}));
 
 TEST(ParityOfMixedBodies, holds_for_spheres_spin_bounces_and_the_other_settings) {
     TALUS_SKIP_WITHOUT(DeviceKind::Gpu);

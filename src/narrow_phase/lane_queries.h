@@ -45,8 +45,7 @@ NearPairs find_near(const CpuState&, const Pair*, uint count);
 /// Answers `count` questions, as many side by side as the widest registers of this machine have lanes.
 void collide_box_pairs(const CpuState&, const BoxQuestion*, uint count, ContactGeometry*);
 
-/// Writes those of at most 64 contacts that last, as they are in this step; `most`: most_way. Returns which these are, a
-/// bit each.
+/// Writes those of at most 64 contacts that last, as they are in this step; `most`: most_way. Returns them, a bit each.
 std::uint64_t renew_last_contacts(const CpuState&, const LastContact*, uint count, float most);
 
 } // namespace talus::engine

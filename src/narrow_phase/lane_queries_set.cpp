@@ -112,9 +112,9 @@ inline std::uint32_t renew_last_contacts(const CpuState& state, const LastContac
     const vec4 openings(opening(point_0), opening(point_1), opening(point_2), opening(point_3));
     const Separations separations = lasting_separations(old_separations, openings, way, old.point_count);
     const vec3 motion = motion_between(velocity_a, velocity_b, p);
-    const std::uint32_t lasting =
-        bits_of(may && was_found_in_place(old_separations) && stays(way, ahead_a, ahead_b, meeting, axis.leverage, most) &&
-                is_within_reach(separations, old.point_count, motion, p));
+    const std::uint32_t lasting = bits_of(may && was_found_in_place(old_separations) &&
+                                          stays(way, ahead_a, ahead_b, meeting, axis.leverage, most) &&
+                                          is_within_reach(separations, old.point_count, motion, p));
     if (lasting == 0) return 0;
 
     put_manifolds(state, pairs, lasting, manifold);

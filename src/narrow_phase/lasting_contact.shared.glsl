@@ -126,11 +126,15 @@ inline bool was_found_in_place(Separations separations)
     return separations.shift.x == 0.0f && separations.shift.y == 0.0f && separations.shift.z == 0.0f;
 }
 
-// How far a contact may have moved (m). `with_old`: so that those end which would in the next steps. What rests still creeps by some
-// thousandth of it a step, and of a thousand contacts one or two would end in each, for which the GPU waits as long as for many.
-inline float most_way(bool with_old, Parameters p)
+// The part of that way beyond which contacts are collided early, in one of sixteen steps (collides_early in step.h). What rests
+// creeps by some thousandth of the way a step, and of a thousand contacts one or two would have had it in each: a GPU takes as long for
+// these as for many. What creeps by less than a 120th never has it in another step.
+const float k_early_share = 0.875f;
+
+// How far a contact may have moved (m).
+inline float most_way(bool early, Parameters p)
 {
-    precise float most = choose(with_old, 0.875f, 1.0f) * k_lasting_way * p.speculative_distance;
+    precise float most = choose(early, k_early_share, 1.0f) * k_lasting_way * p.speculative_distance;
     return most;
 }
 

@@ -21,7 +21,7 @@ void narrow_phase(Device& device, const StepPlan& plan) {
         {"PairsToCollide", BufferId::Uncoloured}}; // nobody wants that before the graph
     device.run({.kernel = renew_contacts,
                 .slot = k_dispatch_pairs,
-                .args = {plan.records_last, plan.ends_old_contacts},
+                .args = {plan.records_last, plan.collides_early},
                 .bindings = list});
     device.run({.kernel = collide_pairs, .slot = k_dispatch_pairs, .bindings = list});
 }

@@ -2,7 +2,8 @@
 // One invocation is a pair. Where the contact of the last step lasts it is this one's, and where the bodies are apart there is none;
 // all other pairs are listed. Of two bodies that sleep, or stand, for two steps the contact is there, as it is written where it was two
 // steps ago; of others of which one sleeps and nothing moves it is copied.
-// args.x: 1 where constraints have not been written over what was there. args.y: 1 where contacts that have nearly ended end, too.
+// args.x: 1 where constraints have not been written over what was there. args.y: 1 where those are
+// listed, too, that have nearly had their way (most_way).
 // Reads: Counters, Pairs, Poses, Velocities, Shapes, Starts, PairTable, OldManifolds, OldManifoldPoints, OldPointSeparations,
 // OldPointImpulses.
 // Writes: Manifolds, PointImpulses, ManifoldPoints and PointSeparations of pairs that are not listed; PairsToCollide, in any order, with
@@ -115,7 +116,8 @@ bool renew(uint pair_index, OldContact old, PairMovement m, LastingAxis axis, Bo
     vec4 opening = vec4(opening_at(n, anchor_0, m.offset, m.a, m.b), opening_at(n, anchor_1, m.offset, m.a, m.b),
                         opening_at(n, anchor_2, m.offset, m.a, m.b), opening_at(n, anchor_3, m.offset, m.a, m.b));
     Separations separations = lasting_separations(old.separations, opening, way, count);
-    bool lasts = was_found_in_place(old.separations) && stays(way, m.ahead_a, m.ahead_b, meeting, axis.leverage, most_way(args.y == 1u, parameters)) &&
+    float most = most_way(args.y == 1u, parameters);
+    bool lasts = was_found_in_place(old.separations) && stays(way, m.ahead_a, m.ahead_b, meeting, axis.leverage, most) &&
                  is_within_reach(separations, count, m.motion, parameters);
     if (!lasts) return false;
     manifolds[pair_index] = pack(manifold);

@@ -87,7 +87,7 @@ void take_constraint(uint index, bool of_hub)
     has_other_impulses = false;
 }
 
-// In the last cells of the record: see ContactConstraint.
+// If a pass has changed them. In the last cells of the record: see ContactConstraint.
 void put_back_impulses(uint index)
 {
     if (has_other_impulses) {
@@ -104,7 +104,7 @@ Substep substep_in_hand(float present_load_speed);
 
 vec3 slip_of_target; // m: Slip::apart
 
-// `have_moved`: false where no body has in this step.
+// `have_moved`: false where no body has in this step, which saves loading that.
 PassTarget target_of_pass(uint pass, bool have_moved)
 {
     BodyDelta delta_a = no_delta();

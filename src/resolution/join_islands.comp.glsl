@@ -60,7 +60,7 @@ void note(uint body, uint what)
     if ((island_fill[body] & what) == 0u) atomicOr(island_fill[body], what);
 }
 
-// Most ask for the fewest, which each body has, and have no foot rate.
+// Most ask for the fewest, which each body has from begin_graph on, and have no foot rate.
 void ask_for_substeps(uint body, uint demand)
 {
     if (substeps_of(demand) > parameters.fewest_substeps) atomicMax(substeps[body], substeps_of(demand));

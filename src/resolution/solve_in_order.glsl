@@ -93,13 +93,18 @@ uint ticks_power(uint tick) { return uint(findLSB(tick)); }
 uint slowest_power() { return uint(findLSB(ticks_apart)); }
 bool has_slowest(uint power) { return power + 1u >= slowest_power(); }
 
+// An entry of the list has a body and, above it, its slowness: to come by one that has no sub-step no record of it is loaded.
+uint listed_body(uint entry) { return entry % k_most_bodies; }
+bool listed_has_substep(uint entry, uint tick) { return entry / k_most_bodies <= ticks_power(tick); }
+
 // `r`: its slowness, if that is not the one of most.
 void list_fast_body(uint body, uint r)
 {
+    uint entry = body + r * k_most_bodies;
     if (has_slowest(r))
-        fast_bodies[word_from_end(atomicAdd(arrivals[k_all_other_fast_bodies], 1u))] = body;
+        fast_bodies[word_from_end(atomicAdd(arrivals[k_all_other_fast_bodies], 1u))] = entry;
     else
-        fast_bodies[list_word(atomicAdd(arrivals[k_all_fastest_bodies], 1u))] = body;
+        fast_bodies[list_word(atomicAdd(arrivals[k_all_fastest_bodies], 1u))] = entry;
 }
 
 uint fastest_body_count; // that are listed
@@ -110,7 +115,7 @@ uint count_fast_bodies(uint tick)
     return fastest_body_count + (has_slowest(ticks_power(tick)) ? arrivals[k_all_other_fast_bodies] : 0u);
 }
 
-uint fast_body(uint i) { return fast_bodies[i < fastest_body_count ? list_word(i) : word_from_end(i - fastest_body_count)]; }
+uint fast_entry(uint i) { return fast_bodies[i < fastest_body_count ? list_word(i) : word_from_end(i - fastest_body_count)]; }
 
 // ---- the deal ----
 //

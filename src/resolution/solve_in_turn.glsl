@@ -123,7 +123,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
                 if (!is_end && has_substep(index, tick)) {
                     if (first == k_none) first = index;
                     PassTarget target;
-                    if (pass != k_warm_start) target = target_of_pass(pass, true);
+                    if (pass != k_warm_start) target = target_of_pass(pass, true); // shared memory has most
                     find_turns(index);
                     pass_in_turn(pass, tick, index, target);
                 }

@@ -118,14 +118,21 @@ void integrate_own_bodies(uint tick)
     uint next = part_begin(count, gl_WorkGroupID.x) + worker;
     while (hub < hub_count || next < end) {
         uint body;
+        bool may_have_substep = true;
         moves_hub = hub < hub_count;
         if (moves_hub) {
             body = hubs[hub];
             hub += gl_NumWorkGroups.x;
+        } else if (all) {
+            body = looks_at_all ? next : launched_bodies[next];
+            next += workers();
         } else {
-            body = !all ? fast_body(next) : looks_at_all ? next : launched_bodies[next];
+            uint entry = fast_entry(next);
+            body = listed_body(entry);
+            may_have_substep = listed_has_substep(entry, tick);
             next += workers();
         }
+        if (!may_have_substep) continue;
         if (k_multirate_islands && tick == 0u) {
             forget_fast_colours(body);
             BodyInertia inertia = unpack(inertias[body]);
