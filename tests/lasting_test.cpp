@@ -154,6 +154,39 @@ TEST_P(LastingContacts, are_collided_in_the_same_steps_after_a_snapshot) {
     }
 }
 
+/// Nor does it matter that such a step is done again with more room.
+TEST_P(LastingContacts, are_collided_in_the_same_steps_where_one_is_done_again) {
+    const auto world_with = [](const Capacities& capacities) {
+        WorldOptions options = options_on(GetParam());
+        options.capacities = capacities;
+        Settings settings;
+        settings.max_substeps = settings.substeps; // more of them would ask for launches as well
+        return World(settings, options);
+    };
+    World tiny = world_with({1, 1, 1}), ample = world_with({256, 4096, 64});
+    std::vector<BodyDefinition> heap;
+    for (int i = 0; i < 27; ++i)
+        heap.push_back(box_at({0.3f * static_cast<float>(i % 3), 0.15f + 0.3f * static_cast<float>(i / 9),
+                               8.0f + 0.3f * static_cast<float>(i / 3 % 3)},
+                              {0.3f, 0.3f, 0.3f}));
+    constexpr std::uint32_t early = 416;
+    ASSERT_TRUE(engine::collides_early(early));
+    for (World* each : {&ample, &tiny}) {
+        each->add(boxes_on_a_table());
+        each->step(early - 1);
+        each->add(heap);
+    }
+    const std::uint32_t growths = tiny.report().growths;
+    for (World* each : {&ample, &tiny})
+        each->step();
+    EXPECT_GT(tiny.report().growths, growths);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_EQ(tiny.state_hash(), ample.state_hash()) << i;
+        tiny.step(16);
+        ample.step(16);
+    }
+}
+
 /// What stands on a table that turns moves with it, and its contacts with both.
 TEST_P(LastingContacts, turn_with_their_bodies) {
     World world = make_world();
