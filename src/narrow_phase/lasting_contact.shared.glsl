@@ -126,7 +126,7 @@ inline bool was_found_in_place(Separations separations)
     return separations.shift.x == 0.0f && separations.shift.y == 0.0f && separations.shift.z == 0.0f;
 }
 
-// The part of that way beyond which contacts are collided early, in one of sixteen steps (collides_early in step.h). What rests
+// The part of k_lasting_way beyond which contacts are collided early, in one of sixteen steps (collides_early in step.h). What rests
 // creeps by some thousandth of the way a step, and of a thousand contacts one or two would have had it in each: a GPU takes as long for
 // these as for many. What creeps by less than a 120th never has it in another step.
 const float k_early_share = 0.875f;

@@ -104,12 +104,15 @@ Substep substep_in_hand(float present_load_speed);
 
 vec3 slip_of_target; // m: Slip::apart
 
-// `have_moved`: false where no body has in this step, which saves loading that.
-PassTarget target_of_pass(uint pass, bool have_moved)
+// Whether bodies have moved in this step: not in its first tick, whose number the relax pass comes with, too.
+bool have_moved(uint pass, uint tick) { return tick > 0u || pass == k_relax; }
+
+// `loads_movements`: false where no body has moved, which saves loading that.
+PassTarget target_of_pass(uint pass, bool loads_movements)
 {
     BodyDelta delta_a = no_delta();
     BodyDelta delta_b = no_delta();
-    if (have_moved) {
+    if (loads_movements) {
         delta_a = load_delta(body_a, slot_a);
         delta_b = load_delta(body_b, slot_b);
     }

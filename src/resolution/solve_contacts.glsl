@@ -64,7 +64,7 @@ void main()
         if (substep >= substeps_of_contact(cell_in_block(constraints, index, 0u).w)) continue;
         take_constraint(index, k_hubs);
         PassTarget target;
-        if (args.y != k_warm_start) target = target_of_pass(args.y, args.z > 0u || args.y == k_relax);
+        if (args.y != k_warm_start) target = target_of_pass(args.y, have_moved(args.y, args.z));
         pass_over_constraint(args.y, args.z, index, target);
         put_back_impulses(index);
     }

@@ -371,7 +371,7 @@ BodyVelocity load_settled_velocity(uint body, uint its_traits)
 
 // Behind those in order: the colours of hubs and the overflow set, with a wait behind each. `place`: the worker's first one of theirs.
 // In one loop with the pass in order the two took registers from each other (docs/performance.md).
-void pass_over_hubs_and_overflow(uint place, uint pass, uint tick, bool have_moved)
+void pass_over_hubs_and_overflow(uint place, uint pass, uint tick)
 {
     for (uint colour = k_first_hub_colour; colour <= k_overflow_colour; ++colour) {
         if (colour_offsets[colour] == colour_offsets[colour + 1u]) continue;
@@ -384,7 +384,7 @@ void pass_over_hubs_and_overflow(uint place, uint pass, uint tick, bool have_mov
                 if (pass == k_warm_start)
                     note_whether_unlike();
                 else
-                    target = target_of_pass(pass, have_moved);
+                    target = target_of_pass(pass, have_moved(pass, tick));
                 pass_over_constraint(pass, tick, index, target);
             }
             ++come_by;
@@ -401,7 +401,6 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     has_looked = false; // what is in hand may have been taken at the end of the pass before
     uint end = first_places[k_first_hub_colour];
     bool all = most_have_substep(tick); // have a part in it, or what is fast
-    bool have_moved = tick > 0u || pass == k_relax; // which comes with a tick of 0, too
     uint power = all ? 0u : ticks_power(tick);
     worker_colour = first_colour;
     uint place = worker;
@@ -424,7 +423,7 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
                 if (pass == k_warm_start)
                     note_whether_unlike();
                 else
-                    target = target_of_pass(pass, have_moved);
+                    target = target_of_pass(pass, have_moved(pass, tick));
                 find_earlier(tick);
                 looks_in_hand = 0u;
                 is_ready = true;
@@ -445,5 +444,5 @@ void pass_over_contacts(uint pass, uint tick, bool ends_tick)
     bool move_by_themselves = args.y == 0u && parameters.relax == 1u && ticks_apart == 1u;
     is_settled = !(are_all && ends_tick && move_by_themselves);
     if (is_settled || is_alone()) wait_for_workers();
-    if (!are_all) pass_over_hubs_and_overflow(place, pass, tick, have_moved);
+    if (!are_all) pass_over_hubs_and_overflow(place, pass, tick);
 }

@@ -118,7 +118,6 @@ void integrate_own_bodies(uint tick)
     uint next = part_begin(count, gl_WorkGroupID.x) + worker;
     while (hub < hub_count || next < end) {
         uint body;
-        bool may_have_substep = true;
         moves_hub = hub < hub_count;
         if (moves_hub) {
             body = hubs[hub];
@@ -128,11 +127,10 @@ void integrate_own_bodies(uint tick)
             next += workers();
         } else {
             uint entry = fast_entry(next);
-            body = listed_body(entry);
-            may_have_substep = listed_has_substep(entry, tick);
             next += workers();
+            if (!listed_has_substep(entry, tick)) continue;
+            body = listed_body(entry);
         }
-        if (!may_have_substep) continue;
         if (k_multirate_islands && tick == 0u) {
             forget_fast_colours(body);
             BodyInertia inertia = unpack(inertias[body]);
