@@ -59,7 +59,7 @@ constexpr std::array k_body_buffers{
 constexpr std::array k_pair_buffers{
     BufferId::Pairs,
     BufferId::ManifoldKeys,
-    BufferId::ManifoldOrder,
+    BufferId::ManifoldPlaces,
 };
 
 constexpr std::array k_report_buffers{
@@ -448,7 +448,6 @@ StepPlan Simulation::plan_in_launches(const Population& population, IslandSolve 
     if (may_lie_beside(population)) {
         now.constraints_beside = true;
         now.manifold_capacity = std::min(plan.manifold_capacity, placement.resolution->constraints_beside());
-        now.near_pairs = plan.pair_capacity; // which is of no matter to few
     }
     if (settings.solve_order == SolveOrder::Sequential) now.overflow_count = k_none; // all
     now.overflow = now.overflow_count > 0;

@@ -46,7 +46,6 @@ struct StepPlan {
     bool collides_early = false;     ///< see the function of this name
     bool constraints_beside = false; ///< they lie over no contacts: the next step may find those of this one's old ones
     bool records_last = false;       ///< so it was in the last step, whose records of bodies are there, too
-    uint near_pairs = 1u << 20;      ///< whose records are quick to reach in any order, as they lie close together
     uint table_size = 0;             ///< slots of PairTable
     uint colour_capacity = 0;        ///< colours that get launches
     bool overflow = false;           ///< there may be an overflow set

@@ -282,6 +282,38 @@ TEST_P(Primitives, any_keys_are_sorted) {
     }));
 }
 
+/// In one group, and in an odd and an even number of passes; of nothing, places of before stay.
+TEST_P(Primitives, places_are_the_inverse_of_the_order) {
+    for (const uint capacity : {2'048u, 40'000u}) {
+        for (const uint bits : {8u, 16u, 20u}) {
+            for (const uint count : {0u, 1u, 1'025u, 2'048u, capacity}) {
+                SCOPED_TRACE(testing::Message() << count << " keys of " << bits << " bits in room for " << capacity);
+                const Words keys = random_words(count, 1u << bits, count + bits);
+                const engine::Sort wanted{.keys = BufferId::SortKeys,
+                                          .values = BufferId::SortValues,
+                                          .capacity = capacity,
+                                          .count_counter = k_count,
+                                          .bits = bits,
+                                          .gives_places = true};
+                upload(*device, BufferId::SortKeys, Words(capacity, k_untouched));
+                upload(*device, BufferId::SortValues, Words(capacity, k_untouched));
+                const auto [unsorted_keys, unsorted_values] = unsorted_place(*device, wanted);
+                upload(*device, unsorted_keys, keys);
+                if (unsorted_values != BufferId::SortValues)
+                    upload(*device, unsorted_values, Words(count, k_untouched));
+                set_counters(*device, count);
+                sort_by_key(*device, wanted);
+                const Sorted sorted = expected_sort(keys);
+                Words places(capacity, k_untouched);
+                for (uint place = 0; place < count; ++place)
+                    places[sorted.values[place]] = place;
+                ASSERT_TRUE(download(*device, BufferId::SortKeys, count) == sorted.keys);
+                ASSERT_TRUE(download(*device, BufferId::SortValues, capacity) == places);
+            }
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Devices, Primitives, testing::Values(DeviceKind::Cpu, DeviceKind::Gpu),
                          [](const auto& test) { return test.param == DeviceKind::Cpu ? "cpu" : "gl"; });
 

@@ -8,7 +8,7 @@ namespace talus::engine {
 
 static void report_events(Device& device, const StepPlan& plan) {
     const uint persisting = plan.watch == ContactWatch::All ? 1 : 0;
-    device.run({.kernel = gather_contact_impulses, .slot = k_dispatch_manifolds});
+    device.run({.kernel = gather_contact_impulses, .slot = k_dispatch_ordered_pairs});
     device.run({.kernel = report_contacts, .slot = k_dispatch_reports, .args = {persisting, plan.report_room}});
     device.run({.kernel = report_contact_ends, .slot = k_dispatch_report_ends, .args = {persisting, plan.report_room}});
 }

@@ -2,7 +2,7 @@
 // One invocation is a pair that the constraint graph is made of, as are all of a sleeper that something awake touches: what its contact
 // does to that.
 // Launched in large worlds in which bodies may sleep.
-// Reads: Counters, ManifoldOrder, Manifolds, IslandFill; of the contacts of such a sleeper PointImpulses, ManifoldPoints,
+// Reads: Counters, ListedPairs, Manifolds, IslandFill; of the contacts of such a sleeper PointImpulses, ManifoldPoints,
 // PointSeparations, Poses, Properties and Shapes.
 // Writes: Balances.
 // Needs: a barrier after store_contact_impulses.
@@ -19,7 +19,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
-layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
+layout(std430) readonly buffer ListedPairs { uint listed_pairs[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer IslandFill { uint island_fill[]; };
 layout(std430) readonly buffer Shapes { BodyShapeCells shapes[]; };
@@ -51,7 +51,7 @@ void main()
 {
     uint entry = item_index();
     if (entry >= counters[k_counter_graph_pairs] || (counters[k_counter_did_not_fit] & ~k_fit_reports) != 0u) return;
-    uint pair = manifold_order[entry];
+    uint pair = listed_pairs[entry];
     Manifold manifold = unpack(manifolds[pair]);
     if (!is_active(manifold)) return;
     bool weighs_a = is_weighed(manifold.body_a);

@@ -29,7 +29,7 @@ void weigh_sleepers_on_cpu(CpuState& state, const Launch&) {
     if ((state.counters[k_counter_did_not_fit] & ~k_fit_reports) != 0) return;
     const auto is_weighed = [&](uint body) { return (state.island_fill[body] & k_pressed) != 0; };
     state.parallel(state.counters[k_counter_graph_pairs], [&](uint entry) {
-        const uint pair = state.manifold_order[entry];
+        const uint pair = state.listed_pairs[entry];
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
         if (!is_active(manifold) || !(is_weighed(a) || is_weighed(b))) return;

@@ -65,7 +65,9 @@ void sort_digit_by_digit(Device& device, const Sort& sort) {
 
     const uint adds_up = divide_up(sort.capacity, k_sort_tile) <= k_most_added_tiles ? 1 : 0;
     for (uint shift = 0; shift < sort.bits; shift += k_digit_bits) {
-        const std::array<uint, 4> args{sort.count_counter, shift, adds_up};
+        const bool is_first = shift == 0, is_last = shift + k_digit_bits >= sort.bits;
+        const uint values = (is_first ? k_values_are_numbers : 0) | (is_last ? k_gives_places : 0);
+        const std::array<uint, 4> args{sort.count_counter, shift, adds_up, sort.gives_places ? values : 0};
         device.run({.kernel = count_digits,
                     .items = sort.capacity,
                     .slot = sort.slot,
@@ -103,7 +105,7 @@ void sort_by_key(Device& device, const Sort& sort) {
     if (!takes_one_group(sort)) return sort_digit_by_digit(device, sort);
     device.run({.kernel = sort_in_group,
                 .items = 1,
-                .args = {sort.count_counter},
+                .args = {sort.count_counter, sort.gives_places},
                 .bindings = {{"Keys", sort.keys}, {"Values", sort.values}}});
 }
 

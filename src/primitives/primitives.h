@@ -20,12 +20,14 @@ void exclusive_scan(Device&, BufferId values, uint capacity, uint count_counter,
 /// What a sort works on, besides SwapKeys and SwapValues.
 struct Sort {
     BufferId keys;
-    BufferId values;    ///< move with their keys
+    BufferId values;    ///< move with their keys, unless the sort gives places
     uint capacity;      ///< keys
     uint count_counter; ///< word of Counters with the number of keys
     uint bits = 32;     ///< keys are below 2^bits
     /// Entry of Dispatches with a group for each k_sort_tile keys; k_none: launched for `capacity` keys.
     uint slot = k_none;
+    /// `values` gets the place of each key instead, in the order in which the keys were; nothing there is read.
+    bool gives_places = false;
 };
 
 /// Keys and their values.

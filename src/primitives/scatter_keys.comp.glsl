@@ -2,7 +2,7 @@
 // Last part of a pass of the radix sort: every key and its value go to their place; equal digits keep their order.
 // One invocation is a key of each row of the tile, and a digit value between rows; one group is a tile.
 // Reads: Keys, Values; DigitCounts; Counters[args.x], the number of keys. args.y: first bit of the digit. args.z: 1 where the
-// counts have not been scanned, and each group adds them up itself.
+// counts have not been scanned, and each group adds them up itself. args.w: k_values_are_numbers, k_gives_places.
 // Writes: SortedKeys, SortedValues.
 // Needs: a barrier after the counting, or the scan. Each invocation sets its own bit, so the order of the atomics does not show.
 // Overflow: none; every key has a place of its own below the number of keys.
@@ -71,7 +71,11 @@ void main()
                 rank += uint(bitCount(masks[word * k_digits + digit]));
             uint place = places[digit] + rank;
             sorted_keys[place] = key;
-            sorted_values[place] = values[i];
+            uint value = (args.w & k_values_are_numbers) != 0u ? i : values[i];
+            if ((args.w & k_gives_places) != 0u)
+                sorted_values[value] = place;
+            else
+                sorted_values[place] = value;
         }
         barrier();
 

@@ -19,6 +19,8 @@ static void scatter_keys_on_cpu(CpuState& state, const Launch& launch) {
     uint* const counts = state.digit_counts.data;
     if (launch.args[2] == 1) std::exclusive_scan(counts, counts + tile_count * k_digits, counts, 0u);
 
+    const bool are_numbers = (launch.args[3] & k_values_are_numbers) != 0;
+    const bool gives_places = (launch.args[3] & k_gives_places) != 0;
     const auto scatter_tile = [&](uint tile) {
         std::array<uint, k_digits> places;
         for (uint digit = 0; digit < k_digits; ++digit)
@@ -26,7 +28,8 @@ static void scatter_keys_on_cpu(CpuState& state, const Launch& launch) {
         for (uint i = tile * k_sort_tile; i < min((tile + 1) * k_sort_tile, key_count); ++i) {
             const uint place = places[digit_of(keys[i], shift)]++;
             sorted_keys[place] = keys[i];
-            sorted_values[place] = values[i];
+            const uint value = are_numbers ? i : values[i];
+            sorted_values[gives_places ? value : place] = gives_places ? place : value;
         }
     };
     state.parallel(tile_count, scatter_tile, k_parallel_tiles);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A whole sort by a single work group, in shared memory.
 // One invocation is a comparison of each round, and a key before and after; launched as one group.
-// Reads: Keys, Values; Counters[args.x], the number of keys.
+// Reads: Keys, Values; Counters[args.x], the number of keys. args.y: 1 where Values get the place of each key, and are not read.
 // Writes: Keys, Values, in place.
 // Needs: a barrier after whatever made them.
 // Overflow: none; the host launches it for at most k_sort_in_group_keys keys.
@@ -26,12 +26,15 @@ void main()
         bool is_key = i < key_count;
         sorted_keys[i] = is_key ? keys[i] : 0xffffffffu;
         old_places[i] = i;
-        if (is_key) old_values[i] = values[i];
+        if (is_key && args.y == 0u) old_values[i] = values[i];
     }
     barrier();
     sort_group(room);
     for (uint i = me; i < key_count; i += gl_WorkGroupSize.x) {
         keys[i] = sorted_keys[i];
-        values[i] = old_values[old_places[i]];
+        if (args.y == 1u)
+            values[old_places[i]] = i;
+        else
+            values[i] = old_values[old_places[i]];
     }
 }

@@ -36,17 +36,18 @@ static void sort_in_group_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint> keys = state.words(launch.bound("Keys"));
     const Array<uint> values = state.words(launch.bound("Values"));
     const uint key_count = state.counters[launch.args[0]];
+    const bool gives_places = launch.args[1] == 1;
 
     std::vector<Entry> entries(key_count), sorted(key_count);
     for (uint i = 0; i < key_count; ++i)
-        entries[i] = {keys[i], values[i]};
+        entries[i] = {keys[i], gives_places ? i : values[i]};
     for (uint shift = 0; shift < 32; shift += k_bits_a_digit) {
         sort_by_digit(entries, shift, sorted);
         entries.swap(sorted);
     }
     for (uint i = 0; i < key_count; ++i) {
         keys[i] = entries[i].key;
-        values[i] = entries[i].value;
+        values[gives_places ? entries[i].value : i] = gives_places ? i : entries[i].value;
     }
 }
 

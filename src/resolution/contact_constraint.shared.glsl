@@ -3,9 +3,6 @@
 // Needs resolution/manifold_rows.shared.glsl, contact_counts.shared.glsl, hub.shared.glsl, softness.shared.glsl,
 // load.shared.glsl, multirate.shared.glsl and island.shared.glsl.
 
-// Whether a pair is one of those that a launch is for.
-inline bool is_among(uint pair, uint first, uint count) { return pair >= first && pair - first < count; }
-
 // ---- from a manifold to a constraint ----
 
 // Of both bodies. In the other colours a hub is a body as others are.

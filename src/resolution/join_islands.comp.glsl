@@ -4,7 +4,7 @@
 // sub-steps of the manifold that asks for most, and notes the highest foot rate. Where it is asked who sleeps, contacts between the
 // quiet are left alone.
 // args.x: k_join_*. The awake ones are those of listed pairs.
-// Reads: Counters, Manifolds; Pairs, where it is asked who sleeps; ManifoldOrder, the list.
+// Reads: Counters, Manifolds; Pairs, where it is asked who sleeps; ListedPairs.
 // Writes: Islands; Substeps; IslandSizes (foot rates); IslandFill, what is touched, and which parts are reached.
 // Which body hangs below which depends on who comes first; the roots do not.
 // Needs: a barrier after begin_graph.
@@ -16,7 +16,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
+layout(std430) readonly buffer ListedPairs { uint listed_pairs[]; };
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Pairs { Pair pairs[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
@@ -75,7 +75,7 @@ void main()
 {
     uint entry = item_index();
     if (entry >= counters[k_counter_graph_pairs]) return;
-    uint pair = args.x == k_join_awake ? manifold_order[entry] : entry;
+    uint pair = args.x == k_join_awake ? listed_pairs[entry] : entry;
     if (args.x == k_join_to_sleep && is_quiet(pairs[pair].body_a) && is_quiet(pairs[pair].body_b)) return;
     Manifold manifold = unpack(manifolds[pair]);
     if (!is_active(manifold)) return;

@@ -14,11 +14,10 @@ static void ask_for_substeps(CpuState& state, uint body, uint demand) {
 }
 
 static void join_islands_on_cpu(CpuState& state, const Launch& launch) {
-    const Array<uint> manifold_order = state.words(launch.bound("ManifoldOrder"));
     const Array<uint>& islands = state.islands;
     Array<uint>& fill = state.island_fill;
     for (uint entry = 0; entry < state.counters[k_counter_graph_pairs]; ++entry) {
-        const uint pair = launch.args[0] == k_join_awake ? manifold_order[entry] : entry;
+        const uint pair = launch.args[0] == k_join_awake ? state.listed_pairs[entry] : entry;
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;
         const auto is_quiet = [&](uint body) { return (fill[body] & k_quiet) != 0; };

@@ -3,10 +3,10 @@
 // is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's. One
 // that has kept a colour far down is listed too: assign_colours sees whether it needs that, and counts it.
 // Also counts manifolds and contact points. Each group counts, and finds places in the list, for all of its own at once.
-// args.x: 1 where ManifoldOrder lists the pairs that the graph is made of (list_awake_pairs).
-// Reads: Manifolds, PointImpulses, Shapes; Islands, of listed pairs.
-// Writes: ManifoldKeys (the colour, or the load on an uncoloured one), ManifoldOrder (the pair), BodyColours, Uncoloured,
-// Counters. The order of the list depends on who comes first; nothing that is made from it does.
+// args.x: 1 where the graph is made of ListedPairs.
+// Reads: Manifolds, PointImpulses, Shapes; ListedPairs, and Islands of those.
+// Writes: ManifoldKeys (the colour, or the load on an uncoloured one), BodyColours, Uncoloured, Counters. The
+// order of the list depends on who comes first; nothing that is made from it does.
 // Needs: a barrier after begin_graph.
 // Overflow: none; the list has room for every pair.
 #include "state/math.shared.glsl"
@@ -21,7 +21,7 @@ layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };
 layout(std430) writeonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
-layout(std430) buffer ManifoldOrder { uint manifold_order[]; };
+layout(std430) readonly buffer ListedPairs { uint listed_pairs[]; };
 layout(std430) buffer BodyColours { uint body_colours[]; };
 layout(std430) writeonly buffer Uncoloured { uint uncoloured[]; };
 layout(std430) buffer Counters { uint counters[]; };
@@ -82,7 +82,6 @@ uint keep_colour(uint pair)
         }
     }
     manifold_keys[pair] = colour;
-    if (args.x == 0u) manifold_order[pair] = pair;
     return listed;
 }
 
@@ -99,7 +98,7 @@ void main()
     barrier();
     uint entry = item_index();
     uint listed = k_none;
-    if (entry < counters[k_counter_graph_pairs]) listed = keep_colour(args.x == 1u ? manifold_order[entry] : entry);
+    if (entry < counters[k_counter_graph_pairs]) listed = keep_colour(args.x == 1u ? listed_pairs[entry] : entry);
     uint place = listed != k_none ? atomicAdd(listed_count, 1u) : 0u;
     barrier();
     if (is_first && listed_count > 0u) first_listed = atomicAdd(counters[k_counter_uncoloured], listed_count);

@@ -10,7 +10,6 @@ namespace talus::engine {
 static void keep_colours_on_cpu(CpuState& state, const Launch& launch) {
     const bool is_listed = launch.args[0] == 1;
     const Array<uint> manifold_keys = state.words(launch.bound("ManifoldKeys"));
-    const Array<uint> manifold_order = state.words(launch.bound("ManifoldOrder"));
     const auto use_colour = [&](uint body, uint colour) {
         if (!is_movable(state.shapes[body])) return;
         state.body_colours[body_word(body, used_word(colour))] |= used_bit(colour);
@@ -22,7 +21,7 @@ static void keep_colours_on_cpu(CpuState& state, const Launch& launch) {
         return is_listed && state.islands[manifold.body_a] == k_none && state.islands[manifold.body_b] == k_none;
     };
     for (uint entry = 0; entry < state.counters[k_counter_graph_pairs]; ++entry) {
-        const uint pair = is_listed ? manifold_order[entry] : entry;
+        const uint pair = is_listed ? state.listed_pairs[entry] : entry;
         const Manifold& manifold = state.manifolds[pair];
         uint colour = k_inactive_colour;
         if (is_active(manifold)) {
@@ -50,7 +49,6 @@ static void keep_colours_on_cpu(CpuState& state, const Launch& launch) {
             }
         }
         manifold_keys[pair] = colour;
-        if (!is_listed) manifold_order[pair] = pair;
     }
 }
 

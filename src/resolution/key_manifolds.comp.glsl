@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: its manifold's place in the order of the solve, by group, then by colour, and with what is fast in a
 // multirate island first. One between sleepers comes last, as those that do not touch.
-// args.x: 1 where ManifoldOrder lists the pairs that the graph is made of.
-// Reads: IslandGroups, Islands, Substeps, Manifolds; ManifoldKeys, the colour of each pair.
+// args.x: 1 where the graph is made of ListedPairs.
+// Reads: ListedPairs, IslandGroups, Islands, Substeps, Manifolds; ManifoldKeys, the colour of each pair.
 // Writes: Keys, which is ManifoldKeys, or apart from it where pairs are listed, one for each entry of the list; Counters, what needs
 // launches and what sleeps.
 // Needs: a barrier after group_islands.
@@ -19,7 +19,7 @@ layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Islands { uint islands[]; };
 layout(std430) readonly buffer Substeps { uint substeps[]; };
 layout(std430) readonly buffer IslandGroups { uint island_groups[]; };
-layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
+layout(std430) readonly buffer ListedPairs { uint listed_pairs[]; };
 layout(std430) buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) buffer Keys { uint keys[]; };
 layout(std430) buffer Counters { uint counters[]; };
@@ -30,7 +30,7 @@ void main()
 {
     uint entry = item_index();
     if (entry >= counters[k_counter_graph_pairs]) return;
-    uint pair = args.x == 1u ? manifold_order[entry] : entry;
+    uint pair = args.x == 1u ? listed_pairs[entry] : entry;
     uint colour = manifold_keys[pair];
     if (colour == k_inactive_colour) {
         keys[entry] = inactive_key(parameters.body_count);

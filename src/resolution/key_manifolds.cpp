@@ -9,9 +9,8 @@ namespace talus::engine {
 static void key_manifolds_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint> keys = state.words(launch.bound("Keys"));
     const Array<uint> manifold_keys = state.words(launch.bound("ManifoldKeys"));
-    const Array<uint> manifold_order = state.words(launch.bound("ManifoldOrder"));
     for (uint entry = 0; entry < state.counters[k_counter_graph_pairs]; ++entry) {
-        const uint pair = launch.args[0] == 1 ? manifold_order[entry] : entry;
+        const uint pair = launch.args[0] == 1 ? state.listed_pairs[entry] : entry;
         uint& key = keys[entry];
         const uint colour = manifold_keys[pair];
         if (colour == k_inactive_colour) {

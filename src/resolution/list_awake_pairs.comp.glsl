@@ -2,7 +2,7 @@
 // One invocation is a word of marks, of 32 pairs: those that are marked come into the list of those that the constraint graph is made of.
 // The first one also plans the launches for these.
 // Reads: Marks, MarkCounts (scanned), Counters.
-// Writes: ManifoldOrder, Counters, Dispatches.
+// Writes: ListedPairs, Counters, Dispatches.
 // Needs: a barrier after the scan of the counts.
 // Overflow: none.
 #include "state/dispatch.shared.glsl"
@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer MarkCounts { uint mark_counts[]; };
 layout(std430) readonly buffer Marks { uint marks[]; };
-layout(std430) writeonly buffer ManifoldOrder { uint manifold_order[]; };
+layout(std430) writeonly buffer ListedPairs { uint listed_pairs[]; };
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) writeonly buffer Dispatches { Dispatch dispatches[]; };
 
@@ -32,5 +32,5 @@ void main()
     for (uint before = k_mark_words * group; before < word; ++before)
         place += uint(bitCount(marks[before]));
     for (uint left = marks[word]; left != 0u; left &= left - 1u)
-        manifold_order[place++] = 32u * word + uint(findLSB(left));
+        listed_pairs[place++] = 32u * word + uint(findLSB(left));
 }

@@ -10,7 +10,6 @@ namespace talus::engine {
 
 static void list_awake_pairs_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint> mark_counts = state.words(launch.bound("MarkCounts")), marks = state.words(launch.bound("Marks"));
-    const Array<uint> manifold_order = state.words(launch.bound("ManifoldOrder"));
     const uint pair_count = state.counters[k_counter_pair_count];
     const uint listed = pair_count > 0 ? state.counters[k_counter_listed_pairs] : 0;
     state.counters[k_counter_graph_pairs] = listed;
@@ -22,7 +21,7 @@ static void list_awake_pairs_on_cpu(CpuState& state, const Launch& launch) {
         uint place = mark_counts[group];
         for (uint word = k_mark_words * group; word < k_mark_words * (group + 1); ++word)
             for (uint bits = marks[word]; bits != 0; bits &= bits - 1)
-                manifold_order[place++] = 32 * word + static_cast<uint>(std::countr_zero(bits));
+                state.listed_pairs[place++] = 32 * word + static_cast<uint>(std::countr_zero(bits));
     });
 }
 

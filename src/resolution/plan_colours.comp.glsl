@@ -80,7 +80,8 @@ void main()
     if (colour != 0u) return;
     uint group_count = launches ? count_groups(parameters.body_count) : parameters.body_count;
     dispatches[k_dispatch_bodies] = groups_for(on * max(parameters.body_count, 1u), k_group_size);
-    dispatches[k_dispatch_manifolds] = groups_for(on * awake_count, k_group_size);
+    uint ordered_pairs = counters[is_new ? k_counter_graph_pairs : k_counter_ordered_pairs];
+    dispatches[k_dispatch_ordered_pairs] = groups_for(on * ordered_pairs, k_group_size);
     dispatches[k_dispatch_islands] = groups_for(on * group_count, 1u);
     dispatches[k_dispatch_overflow] = groups_for(on * min(overflow_count, 1u), 1u);
     dispatches[k_dispatch_hubs] = groups_for(on * counters[k_counter_hub_count], 1u);
@@ -88,6 +89,7 @@ void main()
     dispatches[k_dispatch_report_ends] = groups_for(on * counters[k_counter_old_pair_count], k_group_size);
     counters[k_counter_did_not_fit] = did_not_fit;
     counters[k_counter_manifold_count] = awake_count;
+    counters[k_counter_ordered_pairs] = ordered_pairs;
     counters[k_counter_launched_colours] = colours;
     counters[k_counter_launched_substeps] = substeps;
     counters[k_counter_launched_overflow] = overflow_count;

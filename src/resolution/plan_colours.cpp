@@ -46,7 +46,8 @@ static void plan_colours_on_cpu(CpuState& state, const Launch& launch) {
     const uint on = did_not_fit == 0 ? 1 : 0;
     const uint group_count = launches ? count_groups(p.body_count) : p.body_count;
     state.dispatches[k_dispatch_bodies] = groups_for(on * max(p.body_count, 1u), k_group_size);
-    state.dispatches[k_dispatch_manifolds] = groups_for(on * counters[k_counter_manifold_count], k_group_size);
+    if (is_new) counters[k_counter_ordered_pairs] = counters[k_counter_graph_pairs];
+    state.dispatches[k_dispatch_ordered_pairs] = groups_for(on * counters[k_counter_ordered_pairs], k_group_size);
     state.dispatches[k_dispatch_islands] = groups_for(on * group_count, 1);
     for (uint colour = 0; colour < k_max_colours; ++colour) {
         const uint count = launches ? offsets[colour + 1] - offsets[colour] : 0;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One invocation is a manifold in the order of colours: the solver's record of it, with effective masses.
-// args.x, args.y: the first pair that is wanted, and how many are. args.w: 1 where something may bounce.
-// Reads: Counters, Poses, ManifoldKeys, ManifoldOrder, Manifolds, ManifoldPoints, PointSeparations, PointImpulses,
+// One invocation is a pair that the constraint graph was made of: the solver's record of its manifold, with effective masses, goes to
+// its place in the order of the solve. What is read of a pair lies in the order of pairs, and bodies of pairs that follow each other
+// are near each other; records are only written, so they can be far apart.
+// args.x: 1 where the graph was made of ListedPairs. args.y: 1 where something may bounce.
+// Reads: Counters, Poses, ManifoldKeys, ManifoldPlaces, ListedPairs, Manifolds, ManifoldPoints, PointSeparations, PointImpulses,
 // BodyColours, Velocities, Inertias.
 // Writes: Constraints, ToldLoads; WarmStarts, the contact's hits, where something may bounce.
 // Needs: barriers after plan_colours and prepare_bodies.
@@ -25,7 +27,8 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Poses { BodyPoseCells poses[]; };
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
-layout(std430) readonly buffer ManifoldOrder { uint manifold_order[]; };
+layout(std430) readonly buffer ManifoldPlaces { uint manifold_places[]; };
+layout(std430) readonly buffer ListedPairs { uint listed_pairs[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer BodyColours { uint body_colours[]; };
 layout(std430) readonly buffer Velocities { BodyVelocityCells velocities[]; };
@@ -72,18 +75,19 @@ vec3 anchor_at(uint pair, uint i) { return unpack(manifold_points[4u * pair + i]
 
 void main()
 {
-    uint index = item_index();
-    if (index >= counters[k_counter_manifold_count]) return;
-    uint manifold_index = manifold_order[index];
-    if (!is_among(manifold_index, args.x, args.y)) return;
+    uint entry = item_index();
+    if (entry >= counters[k_counter_ordered_pairs]) return;
+    uint index = manifold_places[entry];
+    if (index >= counters[k_counter_manifold_count]) return; // they do not touch, or sleep
+    uint pair = args.x == 1u ? listed_pairs[entry] : entry;
     // All that is known of the pair at once, and then of its bodies: loads behind a decision wait for what it is made from.
-    Manifold manifold = unpack(manifolds[manifold_index]);
-    vec3 anchor_0 = anchor_at(manifold_index, 0u);
-    vec3 anchor_1 = anchor_at(manifold_index, 1u);
-    vec3 anchor_2 = anchor_at(manifold_index, 2u);
-    vec3 anchor_3 = anchor_at(manifold_index, 3u);
-    Separations separations = unpack(point_separations[manifold_index]);
-    vec4 impulses = unpack(point_impulses[manifold_index]).normal;
+    Manifold manifold = unpack(manifolds[pair]);
+    vec3 anchor_0 = anchor_at(pair, 0u);
+    vec3 anchor_1 = anchor_at(pair, 1u);
+    vec3 anchor_2 = anchor_at(pair, 2u);
+    vec3 anchor_3 = anchor_at(pair, 3u);
+    Separations separations = unpack(point_separations[pair]);
+    vec4 impulses = unpack(point_impulses[pair]).normal;
     float inverse_mass_a = unpack(velocities[manifold.body_a]).inverse_mass;
     float inverse_mass_b = unpack(velocities[manifold.body_b]).inverse_mass;
     BodyInertia inertia_a = unpack(inertias[manifold.body_a]);
@@ -94,7 +98,7 @@ void main()
     uint order = order_at(manifold.body_a, inertia_a.traits, colour, k_earlier_of_a, k_last_of_a) |
                  order_at(manifold.body_b, inertia_b.traits, colour, k_earlier_of_b, k_last_of_b);
     ContactConstraint c =
-        begin_constraint(manifold, manifold_index, colour, order, share_of_contact(manifold, manifold_index, colour),
+        begin_constraint(manifold, pair, colour, order, share_of_contact(manifold, pair, colour),
                          inverse_mass_a, inverse_mass_b, inertia_a, inertia_b, parameters);
     vec3 offset = offset_at_meeting(position_a, position_b, separations.shift);
     if (0u < manifold.point_count) c = add_to_centre(c, anchor_0, offset);
@@ -120,5 +124,5 @@ void main()
     c.base_separation =
         lifted_separation(c.base_separation, c.normal_mass, force, substeps_of_contact(c.counts), c.traits, parameters);
     pack_ContactConstraint(constraints, index, c);
-    if (args.w == 1u) store_contact_hits(index, vec4(0.0));
+    if (args.y == 1u) store_contact_hits(index, vec4(0.0));
 }

@@ -45,22 +45,24 @@ void tell_foot(const CpuState& state, const ToldFoot& foot) {
 }
 
 static void prepare_contacts_on_cpu(CpuState& state, const Launch& launch) {
+    const uint manifold_count = state.counters[k_counter_manifold_count];
     const auto prepare_part = [&](uint, uint first, uint end) {
         ContactToPrepare contacts[k_most_lanes];
         uint count = 0;
-        for (uint index = first; index < end; ++index) {
-            const uint manifold = state.manifold_order[index];
-            if (!is_among(manifold, launch.args[0], launch.args[1])) continue;
+        for (uint entry = first; entry < end; ++entry) {
+            const uint index = state.manifold_places[entry];
+            if (index >= manifold_count) continue; // they do not touch, or sleep
+            const uint pair = launch.args[0] == 1 ? state.listed_pairs[entry] : entry;
             const uint colour = colour_of_key(state.manifold_keys[index]);
-            const Manifold& of = state.manifolds[manifold];
+            const Manifold& of = state.manifolds[pair];
             const uint order = order_at(state, of.body_a, colour, k_earlier_of_a, k_last_of_a) |
                                order_at(state, of.body_b, colour, k_earlier_of_b, k_last_of_b);
-            contacts[count++] = {index, manifold, colour, order, share_of_contact(state, manifold, colour)};
-            if (launch.args[3] == 1) put_contact_hits(state, index, vec4(0.0f));
+            contacts[count++] = {index, pair, colour, order, share_of_contact(state, pair, colour)};
+            if (launch.args[1] == 1) put_contact_hits(state, index, vec4(0.0f));
         }
         if (count > 0) lane_passes().prepare_contacts(state, contacts, count);
     };
-    state.parallel_parts(state.counters[k_counter_manifold_count], lane_passes().lanes, prepare_part,
+    state.parallel_parts(state.counters[k_counter_ordered_pairs], lane_passes().lanes, prepare_part,
                          k_parallel_grain / 4);
 }
 

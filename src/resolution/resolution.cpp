@@ -20,20 +20,9 @@ static uint manifold_key_bits(const StepPlan& plan) {
     return std::bit_width(largest);
 }
 
-/// Launches a kernel whose items are manifolds in the order of colours, for some pairs after the others: for those with
-/// indices from args[0] on, args[1] of them. args[2] is 1 where islands may be multirate, args[3] where something may
-/// bounce. `overlaps_next`: of the last of them.
-static void run_on_near_pairs(Device& device, const StepPlan& plan, const Kernel& kernel, bool overlaps_next = false) {
-    for (uint first = 0; first < plan.pair_capacity; first += plan.near_pairs)
-        device.run({.kernel = kernel,
-                    .slot = k_dispatch_manifolds,
-                    .args = {first, plan.near_pairs, plan.may_be_multirate(), plan.bounces},
-                    .overlaps_next = overlaps_next && plan.pair_capacity - first <= plan.near_pairs});
-}
-
 /// Who sleeps, for which islands are found of all that contacts can push; and which pairs the graph is made of then:
 /// those of what is awake, and those of sleepers that something awake touches.
-static void choose_who_sleeps(Device& device, const StepPlan& plan, SortPlace unsorted, SortPlace spare) {
+static void choose_who_sleeps(Device& device, const StepPlan& plan, SortPlace spare) {
     device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {k_join_to_sleep}});
     device.run({.kernel = measure_islands, .items = plan.body_count, .args = {1}});
     device.run(
@@ -43,20 +32,17 @@ static void choose_who_sleeps(Device& device, const StepPlan& plan, SortPlace un
     const BufferId counts = spare.keys, bits = spare.values; // nothing lies there yet
     const std::size_t groups = (plan.pair_capacity + k_count_group - 1) / k_count_group;
     device.grow(bits, k_mark_words * groups * sizeof(uint));
-    const std::initializer_list<Binding> marks{
-        {"MarkCounts", counts}, {"Marks", bits}, {"ManifoldOrder", unsorted.values}};
+    device.grow(BufferId::ListedPairs, plan.pair_capacity * sizeof(uint));
+    const std::initializer_list<Binding> marks{{"MarkCounts", counts}, {"Marks", bits}};
     device.run({.kernel = mark_awake_pairs, .slot = k_dispatch_graph_counts, .bindings = marks});
     exclusive_scan(device, counts, plan.pair_capacity, k_counter_graph_pairs, k_counter_listed_pairs, k_count_group);
     device.run({.kernel = list_awake_pairs, .items = (plan.pair_capacity + 31) / 32, .bindings = marks});
 }
 
 /// The islands of a large world, and which of them a work group solves. `colours`: of pairs.
-static void find_island_groups(Device& device, const StepPlan& plan, SortPlace unsorted, BufferId colours) {
+static void find_island_groups(Device& device, const StepPlan& plan, BufferId keys, BufferId colours) {
     const uint joined = plan.sleeps_in_parts() ? k_join_awake : k_join_all;
-    device.run({.kernel = join_islands,
-                .slot = k_dispatch_graph_pairs,
-                .args = {joined},
-                .bindings = {{"ManifoldOrder", unsorted.values}}});
+    device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {joined}});
     device.run({.kernel = measure_islands, .items = plan.body_count});
     exclusive_scan(device, BufferId::IslandStarts, plan.body_count, k_counter_graph_bodies, k_none);
     device.run({.kernel = group_islands,
@@ -65,7 +51,7 @@ static void find_island_groups(Device& device, const StepPlan& plan, SortPlace u
     device.run({.kernel = key_manifolds,
                 .slot = k_dispatch_graph_pairs,
                 .args = {plan.sleeps_in_parts()},
-                .bindings = {{"Keys", unsorted.keys}, {"ManifoldKeys", colours}, {"ManifoldOrder", unsorted.values}}});
+                .bindings = {{"Keys", keys}, {"ManifoldKeys", colours}}});
 }
 
 void wake(Device& device, const StepPlan& plan) {
@@ -74,28 +60,28 @@ void wake(Device& device, const StepPlan& plan) {
     device.run({.kernel = wake_neighbours, .items = plan.pair_capacity});
 }
 
-// What it launches does nothing in a step whose graph is still the last one's. ManifoldKeys and ManifoldOrder of
-// kernels before the sort are where the sort begins.
+// What it launches does nothing in a step whose graph is still the last one's. ManifoldKeys of kernels before the sort
+// are where the sort begins.
 static void make_graph(Device& device, const StepPlan& plan) {
     const Sort order{.keys = BufferId::ManifoldKeys,
-                     .values = BufferId::ManifoldOrder,
+                     .values = BufferId::ManifoldPlaces,
                      .capacity = plan.pair_capacity,
                      .count_counter = k_counter_graph_pairs,
                      .bits = manifold_key_bits(plan),
-                     .slot = k_dispatch_graph_tiles};
-    const SortPlace unsorted = unsorted_place(device, order);
-    const SortPlace other = plan.sleeps_in_parts() ? spare_place(device, order) : unsorted;
+                     .slot = k_dispatch_graph_tiles,
+                     .gives_places = true};
+    const BufferId keys = unsorted_place(device, order).keys;
     // Of listed pairs the colours lie at the pairs, and the keys in the order of the list.
-    const BufferId colours = other.keys;
+    const BufferId colours = plan.sleeps_in_parts() ? spare_place(device, order).keys : keys;
     const bool measures_islands = plan.measures_islands();
     device.run({.kernel = begin_graph,
                 .items = std::max(plan.body_count, 1u),
                 .args = {measures_islands, plan.sleeps_in_parts()}});
-    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan, unsorted, other);
+    if (plan.sleeps_in_parts()) choose_who_sleeps(device, plan, spare_place(device, order));
     device.run({.kernel = keep_colours,
                 .slot = k_dispatch_graph_counts,
                 .args = {plan.sleeps_in_parts()},
-                .bindings = {{"ManifoldKeys", colours}, {"ManifoldOrder", unsorted.values}}});
+                .bindings = {{"ManifoldKeys", colours}}});
     // Colours and islands are found beside each other.
     device.run({.kernel = assign_colours,
                 .items = plan.colouring_groups,
@@ -106,8 +92,8 @@ static void make_graph(Device& device, const StepPlan& plan) {
         device.run({.kernel = find_islands,
                     .items = 1,
                     .args = {plan.one_island, plan.in_groups},
-                    .bindings = {{"ManifoldKeys", unsorted.keys}}});
-    if (measures_islands) find_island_groups(device, plan, unsorted, colours);
+                    .bindings = {{"ManifoldKeys", keys}}});
+    if (measures_islands) find_island_groups(device, plan, keys, colours);
     sort_by_key(device, order);
 }
 
@@ -151,7 +137,8 @@ void prepare(Device& device, const StepPlan& plan) {
                 .args = {plan.has_islands(), plan.has_groups(), plan.bounces,
                          (plan.records_last ? k_with_records : 0u) | (plan.sleeps_in_parts() ? k_with_parts : 0u) |
                              (plan.loads ? k_with_loads : 0u)}});
-    run_on_near_pairs(device, plan, prepare_contacts);
+    device.run(
+        {.kernel = prepare_contacts, .slot = k_dispatch_ordered_pairs, .args = {plan.sleeps_in_parts(), plan.bounces}});
 }
 
 /// One pass over all manifolds that have a sub-step at this tick, colour by colour; those of hubs and the overflow set
@@ -210,7 +197,10 @@ void solve(Device& device, const StepPlan& plan) {
 void store_impulses(Device& device, const StepPlan& plan) {
     // What ends the step for bodies needs nothing of it; contact events do, and what weighs on sleepers.
     const bool is_awaited = plan.watch != ContactWatch::None || plan.sleeps_in_parts();
-    run_on_near_pairs(device, plan, store_contact_impulses, !is_awaited);
+    device.run({.kernel = store_contact_impulses,
+                .slot = k_dispatch_ordered_pairs,
+                .args = {plan.sleeps_in_parts(), plan.bounces, plan.may_be_multirate()},
+                .overlaps_next = !is_awaited});
 }
 
 } // namespace talus::engine

@@ -10,15 +10,18 @@
 namespace talus::engine {
 
 static void store_contact_impulses_on_cpu(CpuState& state, const Launch& launch) {
-    state.parallel(state.counters[k_counter_manifold_count], [&](uint index) {
-        if (!is_among(state.manifold_order[index], launch.args[0], launch.args[1])) return;
+    const uint manifold_count = state.counters[k_counter_manifold_count];
+    state.parallel(state.counters[k_counter_ordered_pairs], [&](uint entry) {
+        const uint index = state.manifold_places[entry];
+        if (index >= manifold_count) return; // they do not touch, or sleep
+        const uint pair = launch.args[0] == 1 ? state.listed_pairs[entry] : entry;
         ContactConstraint& c = state.constraints[index];
-        Manifold& manifold = state.manifolds[c.manifold];
+        Manifold& manifold = state.manifolds[pair];
         vec4 impulse(0.0f);
         for (int i = 0; i < static_cast<int>(point_count_of(c.counts)); ++i)
             impulse[i] = impulse_of_step(c.normal_impulse[i], c.total_impulse[i], substeps_of_contact(c.counts));
-        state.point_impulses[c.manifold] = {impulse};
-        if (launch.args[3] == 1) c.total_impulse = with_hits(c.total_impulse, hits_of_contact(state, index));
+        state.point_impulses[pair] = {impulse};
+        if (launch.args[1] == 1) c.total_impulse = with_hits(c.total_impulse, hits_of_contact(state, index));
         manifold.colour = colour_of_step(state.manifold_keys[index], c.traits);
         const uint demand = manifold.demand;
         const Standing standing = find_standing(c.normal, c.centre_a, c.centre_b, c.gap, state.parameters);

@@ -70,7 +70,8 @@ namespace talus::engine {
     X(BodyColours, body_colours, uint, "u", Scratch)                                                                   \
     X(Uncoloured, uncoloured, uint, "u", Scratch)                                                                      \
     X(ManifoldKeys, manifold_keys, uint, "u", Result)                                                                  \
-    X(ManifoldOrder, manifold_order, uint, "u", Result)                                                                \
+    X(ManifoldPlaces, manifold_places, uint, "u", Result)                                                              \
+    X(ListedPairs, listed_pairs, uint, "u", Result)                                                                    \
     X(ColourOffsets, colour_offsets, uint, "u", Result)                                                                \
     X(LaunchedBodies, launched_bodies, uint, "u", Scratch)                                                             \
     X(Inertias, inertias, BodyInertia, "ffffffuu", Result)                                                             \

@@ -123,7 +123,8 @@ const uint k_counter_awake = 43u; // 1 where a body is awake, or moves as its ca
 const uint k_counter_all_strays = 44u; // since the last search of all
 const uint k_counter_searched_tree = 45u; // 1 where strays of this step searched the tree
 const uint k_counter_low_islands = 46u; // multirate ones that launches solve, without a tall column
-const uint k_counter_words = 47u;
+const uint k_counter_ordered_pairs = 47u; // that the last constraint graph was made of
+const uint k_counter_words = 48u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
@@ -162,7 +163,7 @@ const uint k_due_for_hubs = 3u;
 const uint k_dispatch_pairs = 0u;      // groups of 64 pairs
 const uint k_dispatch_old_pairs = 1u;  // groups of 64 pairs of the last step, where they have to be looked up by their bodies
 const uint k_dispatch_bodies = 2u;     // groups of 64 bodies, one where there are none: a step counts pairs all the same
-const uint k_dispatch_manifolds = 3u;  // groups of 64 manifolds
+const uint k_dispatch_ordered_pairs = 3u; // groups of 64 pairs that the graph of this step was made of, in this or an earlier one
 const uint k_dispatch_islands = 4u;    // a group for each body slot, which may lead an island, or for each group of islands
 const uint k_dispatch_colours = 5u;    // groups of 64 manifolds of colour 0, then of colour 1, ...
 const uint k_dispatch_overflow = k_dispatch_colours + k_max_colours; // one group if there is an overflow set
