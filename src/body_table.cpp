@@ -2,6 +2,8 @@
 #include "body_table.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -9,11 +11,14 @@
 #include <utility>
 
 #include "fresh_memory.h"
+#include "host_loops.h"
 #include "log.h"
 #include "state/formulas.h"
 
 namespace talus::engine {
 namespace {
+
+constexpr std::size_t k_many_bodies = 8192; // to be worth other threads
 
 BodyShape pack_shape(const Shape& shape, BodyKind kind, bool sensor) {
     const uint kind_bits = static_cast<uint>(kind) << 8 | (sensor ? k_sensor_bit : 0u);
@@ -94,29 +99,37 @@ void BodyTable::reserve(std::size_t more, uint threads) {
     grow(changed, changed.size() + more);
 }
 
-void BodyTable::append_slot() {
-    for_each_slot_list([](auto& list) { list.emplace_back(); });
-    generations.resize(std::max(generations.size(), uses.size()));
-    next_generations.resize(std::max(next_generations.size(), uses.size()));
+void BodyTable::append_slots(std::size_t count, uint threads) {
+    const std::size_t slots = uses.size() + count;
+    for_each_slot_list([&](auto& list) { // all of them, or none is longer
+        if (list.capacity() < slots) list.reserve(std::max(slots, 2 * list.capacity()));
+    });
+    if (threads > 1 && count >= k_many_bodies) {
+        std::vector<std::function<void()>> tasks;
+        for_each_slot_list([&](auto& list) { tasks.emplace_back([&list, slots] { list.resize(slots); }); });
+        side_by_side(threads, tasks);
+    } else {
+        for_each_slot_list([&](auto& list) { list.resize(slots); });
+    }
+    generations.resize(std::max(generations.size(), slots));
+    next_generations.resize(std::max(next_generations.size(), slots));
 }
 
 void BodyTable::drop_last_slot() {
     for_each_slot_list([](auto& list) { list.pop_back(); });
 }
 
-uint BodyTable::take_slot() {
+uint BodyTable::take_free_slot() {
     while (!free_slots.empty()) {
         std::ranges::pop_heap(free_slots, std::greater<>{});
         const uint slot = free_slots.back();
         free_slots.pop_back();
         if (slot < slot_count() && uses[slot] == Use::Free) return slot;
     }
-    append_slot();
-    return slot_count() - 1;
+    return k_none;
 }
 
-BodyId BodyTable::add(const BodyDefinition& definition) {
-    const uint slot = take_slot();
+void BodyTable::put(uint slot, const BodyDefinition& definition) {
     generations[slot] = next_generations[slot]++;
     const bool rigid = definition.kind == BodyKind::Rigid;
     const auto [mass, inertia] = mass_properties(definition);
@@ -138,12 +151,56 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
                         0,
                         0};
     loads[slot] = {};
-    if (material.restitution > 0.0f) ++bouncing_count;
-    if (definition.kind == BodyKind::Kinematic) ++kinematic_count;
     uses[slot] = Use::Present;
+}
+
+BodyId BodyTable::add(const BodyDefinition& definition) {
+    reserve(1);
+    uint slot = take_free_slot();
+    if (slot == k_none) {
+        slot = slot_count();
+        append_slots(1, 1);
+    }
+    put(slot, definition);
+    if (definition.material.restitution > 0.0f) ++bouncing_count;
+    if (definition.kind == BodyKind::Kinematic) ++kinematic_count;
     ++present_count;
     note_change(slot, k_dirty_all); // and no load; nor has a new body a contact that could last
     return id_of(slot);
+}
+
+std::vector<BodyId> BodyTable::add(std::span<const BodyDefinition> definitions, uint threads) {
+    const std::size_t count = definitions.size();
+    reserve(count, threads);
+    std::vector<BodyId> ids;
+    reserve_touched(ids, count, threads);
+    for (uint slot = take_free_slot(); slot != k_none; slot = ids.size() < count ? take_free_slot() : k_none)
+        ids.push_back({slot, 0});
+    const std::size_t left = count - ids.size();
+    uint next = slot_count();
+    if (left > 0) append_slots(left, threads);
+    while (ids.size() < count)
+        ids.push_back({next++, 0});
+
+    std::atomic<uint> bouncing = 0, kinematic = 0;
+    in_parts(count, threads, k_many_bodies / 2, [&](std::size_t first, std::size_t end) {
+        uint part_bouncing = 0, part_kinematic = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const uint slot = ids[i].index;
+            put(slot, definitions[i]);
+            ids[i] = id_of(slot);
+            if (definitions[i].material.restitution > 0.0f) ++part_bouncing;
+            if (definitions[i].kind == BodyKind::Kinematic) ++part_kinematic;
+        }
+        bouncing += part_bouncing;
+        kinematic += part_kinematic;
+    });
+    bouncing_count += bouncing;
+    kinematic_count += kinematic;
+    present_count += count;
+    for (const BodyId id : ids)
+        note_change(id.index, k_dirty_all);
+    return ids;
 }
 
 void BodyTable::remove(BodyId id) {
@@ -257,14 +314,13 @@ void BodyTable::mark(uint slot, std::uint8_t what) {
 
 BodyChanges BodyTable::take_changes(bool with_loads, uint threads) {
     TALUS_ASSERT(with_loads || !has_loads(), "a load was given for which no room had been made");
-    BodyChanges changes;
-    if (changed.empty()) return changes;
+    if (changed.empty()) return {};
     if (!std::ranges::is_sorted(changed)) std::ranges::sort(changed); // neighbours go to neighbouring memory
     const auto take = [&](std::uint8_t what, BufferId buffer, const auto& all) {
+        RecordChanges change{buffer, {}, {}};
         const auto count =
             static_cast<std::size_t>(std::ranges::count_if(changed, [&](uint slot) { return is_dirty(slot, what); }));
-        if (count == 0) return;
-        RecordChanges change{buffer, {}, {}};
+        if (count == 0) return change;
         reserve_touched(change.slots, count, threads);
         if (!all.empty()) reserve_touched(change.records, count * sizeof(all[0]), threads);
         for (auto next = changed.begin(); next != changed.end();) {
@@ -277,18 +333,25 @@ BodyChanges BodyTable::take_changes(bool with_loads, uint threads) {
             const auto bytes = std::as_bytes(std::span(all).subspan(first, end - first));
             change.records.insert(change.records.end(), bytes.begin(), bytes.end());
         }
-        changes.push_back(std::move(change));
+        return change;
     };
-    take(k_dirty_pose, BufferId::Poses, poses);
-    take(k_dirty_velocity, BufferId::Velocities, velocities);
-    take(k_dirty_shape, BufferId::Shapes, shapes);
-    take(k_dirty_properties, BufferId::Properties, properties);
-    if (with_loads) take(k_dirty_load, BufferId::Loads, loads);
-    take(k_dirty_contacts, BufferId::Starts, std::span<const BodyStart>());
+    BodyChanges all(6);
+    const std::array<std::function<void()>, 6> tasks{
+        [&] { all[0] = take(k_dirty_pose, BufferId::Poses, poses); },
+        [&] { all[1] = take(k_dirty_velocity, BufferId::Velocities, velocities); },
+        [&] { all[2] = take(k_dirty_shape, BufferId::Shapes, shapes); },
+        [&] { all[3] = take(k_dirty_properties, BufferId::Properties, properties); },
+        [&] {
+            if (with_loads) all[4] = take(k_dirty_load, BufferId::Loads, loads);
+        },
+        [&] { all[5] = take(k_dirty_contacts, BufferId::Starts, std::span<const BodyStart>()); },
+    };
+    side_by_side(changed.size() >= k_many_bodies ? threads : 1, tasks);
+    std::erase_if(all, [](const RecordChanges& change) { return change.slots.empty(); });
     for (const uint slot : changed)
         dirty[slot] = 0;
     changed.clear();
-    return changes;
+    return all;
 }
 
 } // namespace talus::engine

@@ -2,6 +2,7 @@
 // The host's record of all bodies: who is there, and a copy of what the device holds of them.
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,8 @@ public:
     void reserve(std::size_t more, uint threads = 1);
     /// A checked definition becomes a body, its rotation brought to unit length.
     BodyId add(const BodyDefinition&);
+    /// The same of several, in their order.
+    std::vector<BodyId> add(std::span<const BodyDefinition>, uint threads = 1);
     void remove(BodyId);
     bool contains(BodyId) const noexcept;
 
@@ -108,8 +111,10 @@ private:
     /// Calls `visit` with each list that has one element a slot.
     template <typename Visit> void for_each_slot_list(const Visit& visit);
     void note_change(uint slot, std::uint8_t what);
-    uint take_slot();
-    void append_slot();
+    /// A slot that a body has left; k_none where there is none.
+    uint take_free_slot();
+    void append_slots(std::size_t count, uint threads);
+    void put(uint slot, const BodyDefinition&);
     void drop_last_slot();
 
     // Both also of slots that were dropped, so that old ids stay invalid.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "checks.h"
 
+#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "body_table.h"
+#include "host_loops.h"
 
 namespace talus::engine {
 namespace {
@@ -144,6 +146,26 @@ void check_definition(const BodyDefinition& definition, const Where& where) {
     check_range(definition.linear_damping, 0.0f, 1.0e6f, where, "linear_damping", " 1/s");
     check_range(definition.angular_damping, 0.0f, 1.0e6f, where, "angular_damping", " 1/s");
     check_material(definition.material, where);
+}
+
+void check_definitions(std::span<const BodyDefinition> definitions, unsigned threads) {
+    const auto check = [&](std::size_t i) {
+        const char* const words = definitions.size() == 1 ? "{0}" : "{0}: body {1} of the list";
+        check_definition(definitions[i], {words, "add", i});
+    };
+    constexpr std::size_t k_checked_by_one = 4096;
+    std::atomic<std::size_t> wrong = definitions.size(); // the first
+    in_parts(definitions.size(), threads, k_checked_by_one, [&](std::size_t first, std::size_t end) {
+        std::size_t i = first;
+        try {
+            for (; i < end && i < wrong; ++i)
+                check(i);
+        } catch (const Error&) {
+            for (std::size_t before = wrong; i < before && !wrong.compare_exchange_weak(before, i);) {
+            }
+        }
+    });
+    if (wrong < definitions.size()) check(wrong);
 }
 
 void check_settings(const Settings& settings) {

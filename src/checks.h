@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include <talus/settings.h>
@@ -27,6 +28,9 @@ void check_pose(const Pose&, const Where&);
 void check_velocity(const Velocity&, const Where&);
 void check_material(const Material&, const Where&);
 void check_definition(const BodyDefinition&, const Where&);
+/// Of the bodies that World::add is given, by several threads where they are many; what is said is of the first of them
+/// that is wrong.
+void check_definitions(std::span<const BodyDefinition>, unsigned threads);
 void check_settings(const Settings&);
 void check_watch(ContactWatch);
 void check_options(const WorldOptions&);

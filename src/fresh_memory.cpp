@@ -2,9 +2,7 @@
 // See fresh_memory.h.
 #include "fresh_memory.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
+#include "host_loops.h"
 
 namespace talus::engine {
 namespace {
@@ -18,13 +16,9 @@ constexpr std::size_t k_pages_each = 128;
 void touch_pages(void* begin, std::size_t bytes, unsigned threads) {
     if (bytes < k_worth_threads || threads <= 1) return;
     auto* const memory = static_cast<volatile std::byte*>(begin);
-    // In an arena of its own the caller takes up no other work while it waits.
-    tbb::task_arena(static_cast<int>(threads)).execute([&] {
-        const tbb::blocked_range<std::size_t> all(0, bytes / k_page_bytes, k_pages_each);
-        tbb::parallel_for(all, [memory](const tbb::blocked_range<std::size_t>& pages) {
-            for (std::size_t page = pages.begin(); page < pages.end(); ++page)
-                memory[page * k_page_bytes] = std::byte{0};
-        });
+    in_parts(bytes / k_page_bytes, threads, k_pages_each, [memory](std::size_t first, std::size_t end) {
+        for (std::size_t page = first; page < end; ++page)
+            memory[page * k_page_bytes] = std::byte{0};
     });
 }
 

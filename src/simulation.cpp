@@ -123,7 +123,7 @@ uint share_of_manifolds(uint demand) {
 
 /// `goes_on`: they have grown lately, as those of a heap do while it falls, and will again.
 uint share_of_pairs(uint demand, bool goes_on) {
-    return demand < k_large_demand || goes_on ? 4 : 16;
+    return demand < k_large_demand || goes_on ? 4 : 24;
 }
 
 } // namespace

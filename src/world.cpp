@@ -13,7 +13,6 @@
 #include "contact_events.h"
 #include "device/cpu/cpu_threads.h"
 #include "device/gl/callers_context.h"
-#include "fresh_memory.h"
 #include "saved_state.h"
 #include "simulation.h"
 #include "state/formulas.h"
@@ -104,6 +103,14 @@ struct World::Impl {
         table.velocities[slot].inverse_mass = table.properties[slot].inverse_mass;
     }
 
+    void note_new(std::span<const BodyId> ids) {
+        steps_before.resize(table.slot_count());
+        for (const BodyId id : ids) {
+            steps_before[id.index] = simulation.step_count();
+            if (settings.sleeping) table.disturb(id.index);
+        }
+    }
+
     /// The device gets room for all bodies, before anything that it then could not take back.
     BodyChanges take_changes() {
         simulation.reserve_bodies(table.slot_count());
@@ -177,23 +184,18 @@ World& World::operator=(World&&) noexcept = default;
 // ---- bodies ----
 
 BodyId World::add(const BodyDefinition& definition) {
-    return add(std::span(&definition, 1)).front();
+    check_definition(definition, {"{0}", "add"});
+    impl_->finish_events();
+    const BodyId id = impl_->table.add(definition);
+    impl_->note_new({&id, 1});
+    return id;
 }
 
 std::vector<BodyId> World::add(std::span<const BodyDefinition> definitions) {
-    for (std::size_t i = 0; i < definitions.size(); ++i)
-        check_definition(definitions[i], {definitions.size() == 1 ? "{0}" : "{0}: body {1} of the list", "add", i});
+    check_definitions(definitions, impl_->host_threads);
     impl_->finish_events();
-    impl_->table.reserve(definitions.size(), impl_->host_threads);
-    std::vector<BodyId> ids;
-    engine::reserve_touched(ids, definitions.size(), impl_->host_threads);
-    for (const BodyDefinition& definition : definitions)
-        ids.push_back(impl_->table.add(definition));
-    impl_->steps_before.resize(impl_->table.slot_count());
-    for (const BodyId id : ids) {
-        impl_->steps_before[id.index] = step_count();
-        if (impl_->settings.sleeping) impl_->table.disturb(id.index);
-    }
+    std::vector<BodyId> ids = impl_->table.add(definitions, impl_->host_threads);
+    impl_->note_new(ids);
     return ids;
 }
 

@@ -185,6 +185,41 @@ TEST(BodyTables, give_each_changed_record_once_and_in_order) {
     }
 }
 
+/// Twice as many as are worth other threads, in slots of their own and in those that others have left.
+TEST(BodyTables, of_many_bodies_are_those_of_one_after_the_other) {
+    using engine::uint;
+    constexpr uint count = 20'000, removed = 500;
+    std::vector<BodyDefinition> bodies = scattered(count);
+    for (uint i = 0; i < count; ++i) {
+        if (i % 3 == 0) bodies[i].kind = BodyKind::Kinematic;
+        if (i % 5 == 0) bodies[i].material.restitution = 0.5f;
+        bodies[i].mass = static_cast<float>(1 + i % 7);
+    }
+    engine::BodyTable one_by_one, together;
+    for (engine::BodyTable* const table : {&one_by_one, &together}) {
+        const std::vector<BodyId> first = table->add(std::span(bodies).first(removed));
+        for (const BodyId id : first)
+            table->remove(id);
+        table->recycle();
+        table->add(bodies[0]); // so that what is removed does not lie at the end alone
+    }
+    std::vector<BodyId> ids;
+    for (const BodyDefinition& body : bodies)
+        ids.push_back(one_by_one.add(body));
+    EXPECT_EQ(together.add(bodies, 4), ids);
+    EXPECT_EQ(together.body_count(), one_by_one.body_count());
+    EXPECT_EQ(together.kinematic_count, one_by_one.kinematic_count);
+    EXPECT_EQ(together.bouncing_count, one_by_one.bouncing_count);
+    EXPECT_EQ(together.masses, one_by_one.masses);
+    const engine::BodyChanges expected = one_by_one.take_changes(false), changes = together.take_changes(false, 4);
+    ASSERT_EQ(changes.size(), expected.size());
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        EXPECT_EQ(changes[i].buffer, expected[i].buffer);
+        EXPECT_TRUE(changes[i].slots == expected[i].slots) << i;
+        EXPECT_TRUE(changes[i].records == expected[i].records) << i;
+    }
+}
+
 TEST_P(Changes, of_minus_zero_are_no_loads) { // as a file may have them
     EngineRun run(options_on(GetParam()), {ground(), box_at({0.0f, 0.5f, 0.0f})});
     static_cast<void>(run.table.take_changes(run.simulation.has_room_for_loads()));

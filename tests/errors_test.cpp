@@ -149,6 +149,16 @@ TEST_P(Errors, a_list_with_one_bad_body_adds_none) {
     expect_refused({{{"add", "body 3 of the list", "mass"}, [&] { world->add(definitions); }}});
 }
 
+TEST_P(Errors, a_long_list_tells_of_its_first_bad_body) {
+    std::vector<BodyDefinition> definitions(30'000, box_at({0.0f, 20.0f, 0.0f}));
+    definitions[29'999].mass = -1.0f;
+    definitions[17'003].mass = 0.0f;
+    definitions[17'004].density = 0.0f;
+    const std::size_t before = world->body_count();
+    expect_refused({{{"add", "body 17003 of the list", "mass"}, [&] { world->add(definitions); }}});
+    EXPECT_EQ(world->body_count(), before);
+}
+
 TEST_P(Errors, ids_that_name_no_body_are_refused_by_every_call) {
     std::vector<Refusal> refusals;
     const std::vector<std::pair<BodyId, std::string>> cases{{gone, "was removed"},

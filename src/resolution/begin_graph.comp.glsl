@@ -84,8 +84,13 @@ void main()
         plan_launches(due);
         if (due) count_nothing();
     }
-    if (!due || body >= parameters.body_count) return;
-    for (uint word = 0u; word < k_body_words; ++word)
-        body_colours[body_word(body, word)] = 0u;
+    if (!due) return;
+    // Neighbouring invocations write neighbouring words.
+    uint first = body_word(group_index() * gl_WorkGroupSize.x, 0u) + gl_LocalInvocationID.x;
+    for (uint i = 0u; i < k_body_words; ++i) {
+        uint word = first + i * gl_WorkGroupSize.x;
+        if (word < body_word(parameters.body_count, 0u)) body_colours[word] = 0u;
+    }
+    if (body >= parameters.body_count) return;
     if (args.x == 1u) begin_island(body);
 }

@@ -27,22 +27,48 @@ layout(std430) writeonly buffer IslandPlaces { uint island_places[]; };
 layout(std430) writeonly buffer IslandBodies { uint island_bodies[]; };
 layout(std430) buffer Counters { uint counters[]; };
 
-void main()
+// Of the islands of the group's bodies one, in which most of them often are, and where these come in it: a large island would wait
+// for each of them.
+shared uint main_island;
+shared uint main_bodies;
+shared uint main_first;
+
+// Where in its island a body comes. Every invocation must call it, those without an island too.
+uint place_in(uint island)
 {
-    uint body = item_index();
-    if (body >= counters[k_counter_graph_bodies]) return;
-    uint island = islands[body];
+    bool is_first = gl_LocalInvocationID.x == 0u;
+    if (is_first) {
+        main_island = k_none;
+        main_bodies = 0u;
+    }
+    barrier();
+    if (island != k_none) atomicMin(main_island, island);
+    barrier();
+    bool is_of_main = island != k_none && island == main_island;
+    uint place = 0u;
+    if (is_of_main)
+        place = atomicAdd(main_bodies, 1u);
+    else if (island != k_none)
+        place = atomicAdd(island_fill[island], 1u) & k_fill_count;
+    barrier();
+    if (is_first && main_island != k_none) main_first = atomicAdd(island_fill[main_island], main_bodies) & k_fill_count;
+    barrier();
+    return is_of_main ? main_first + place : place;
+}
+
+void stay_alone(uint body)
+{
     island_groups[body] = k_launched;
     island_places[body] = k_none;
-    if (island == k_none) {
-        bool moves = is_mover(unpack(shapes[body])) && substeps[body] != 0u;
-        if (moves) atomicMax(counters[k_counter_launched_substeps], parameters.least_substeps);
-        return;
-    }
+    bool moves = is_mover(unpack(shapes[body])) && substeps[body] != 0u;
+    if (moves) atomicMax(counters[k_counter_launched_substeps], parameters.least_substeps);
+}
+
+void join_group(uint body, uint island, uint place)
+{
     uint size = island_size(island_sizes[island]);
     bool multirate = args.w == 1u ? (substeps[body] & k_multirate) != 0u : size >= args.z;
     uint group = args.x == 1u && !multirate ? island_group(size, island_starts[island], args.y == 1u) : k_launched;
-    uint place = island_starts[island] + (atomicAdd(island_fill[island], 1u) & k_fill_count);
     island_groups[body] = group;
     island_places[body] = place;
     island_bodies[place] = body;
@@ -61,4 +87,16 @@ void main()
     }
     if (body == island && is_single(size) && !multirate) atomicAdd(counters[k_counter_singles], 1u);
     if (group == k_launched && body == island) atomicMax(counters[k_counter_launched_substeps], ticks);
+}
+
+void main()
+{
+    uint body = item_index();
+    bool is_body = body < counters[k_counter_graph_bodies];
+    uint island = is_body ? islands[body] : k_none;
+    uint place = place_in(island);
+    if (island != k_none)
+        join_group(body, island, island_starts[island] + place);
+    else if (is_body)
+        stay_alone(body);
 }

@@ -61,6 +61,15 @@ const uint k_join_all = 0u;
 const uint k_join_to_sleep = 1u;
 const uint k_join_awake = 2u;
 
+// Of which pairs join_islands treats: those of every group of invocations, or of each second one, and of the others when paths have been
+// shortened. Half of the contacts of a heap join most of what there is (M. Sutton, T. Ben-Nun and A. Barak, "Optimizing Parallel Graph
+// Connectivity Computation via Subgraph Sampling", 2018).
+const uint k_pairs_all = 0u;
+const uint k_pairs_first = 1u;
+const uint k_pairs_others = 2u;
+
+inline bool is_in_part(uint group, uint part) { return part == k_pairs_all || (group & 1u) == part - k_pairs_first; }
+
 // What is kept of a large island for a body that sleeps as a part of it, in BodyRest::calm: the sub-steps that the body's contacts ask
 // for, of a multirate island those that it has; and, unless each had its own, those that the whole island did; and whether it had so
 // many bodies that it might be multirate. It counts as calm for however long.

@@ -3,7 +3,7 @@
 // (Jaiganesh and Burtscher, "A High-Performance Connected Components Implementation for GPUs", 2018). A body asks for the
 // sub-steps of the manifold that asks for most, and notes the highest foot rate. Where it is asked who sleeps, contacts between the
 // quiet are left alone.
-// args.x: k_join_*. The awake ones are those of listed pairs.
+// args.x: k_join_*. The awake ones are those of listed pairs. args.y: k_pairs_*, whose turn it is.
 // Reads: Counters, Manifolds; Pairs, where it is asked who sleeps; ListedPairs.
 // Writes: Islands; Substeps; IslandSizes (foot rates); IslandFill, what is touched, and which parts are reached.
 // Which body hangs below which depends on who comes first; the roots do not.
@@ -74,7 +74,7 @@ bool is_quiet(uint body) { return (island_fill[body] & k_quiet) != 0u; }
 void main()
 {
     uint entry = item_index();
-    if (entry >= counters[k_counter_graph_pairs]) return;
+    if (entry >= counters[k_counter_graph_pairs] || !is_in_part(group_index(), args.y)) return;
     uint pair = args.x == k_join_awake ? listed_pairs[entry] : entry;
     if (args.x == k_join_to_sleep && is_quiet(pairs[pair].body_a) && is_quiet(pairs[pair].body_b)) return;
     Manifold manifold = unpack(manifolds[pair]);

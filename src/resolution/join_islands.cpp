@@ -17,6 +17,7 @@ static void join_islands_on_cpu(CpuState& state, const Launch& launch) {
     const Array<uint>& islands = state.islands;
     Array<uint>& fill = state.island_fill;
     for (uint entry = 0; entry < state.counters[k_counter_graph_pairs]; ++entry) {
+        if (!is_in_part(entry / k_group_size, launch.args[1])) continue;
         const uint pair = launch.args[0] == k_join_awake ? state.listed_pairs[entry] : entry;
         const Manifold& manifold = state.manifolds[pair];
         const uint a = manifold.body_a, b = manifold.body_b;

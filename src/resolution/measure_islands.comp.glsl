@@ -41,23 +41,64 @@ void stand_for_island(uint island, uint kept)
     if ((island_starts[island] & said) != said) atomicOr(island_starts[island], said);
 }
 
-void main()
+// What a body, or several, add to an island.
+void add_to(uint island, uint size, uint bodies, uint its_substeps)
 {
-    uint body = item_index();
-    if (body >= counters[k_counter_graph_bodies] || islands[body] == k_none) return;
-    bool is_part = args.x == 1u && (island_fill[body] & k_quiet) != 0u;
-    if (is_part && (island_fill[body] & k_reached) == 0u) return;
+    atomicAdd(island_sizes[island], size);
+    if (bodies > 0u) atomicAdd(island_starts[island], bodies);
+    atomicMax(substeps[island], its_substeps);
+}
+
+bool is_part(uint body) { return args.x == 1u && (island_fill[body] & k_quiet) != 0u; }
+
+// The island of a body that adds something to one, else k_none.
+uint name_island(uint body)
+{
+    if (body >= counters[k_counter_graph_bodies] || islands[body] == k_none) return k_none;
+    if (is_part(body) && (island_fill[body] & k_reached) == 0u) return k_none;
     uint island = root_of(body);
     islands[body] = island;
-    atomicMax(substeps[island], substeps[body]);
     bool keeps_awake = (island_fill[body] & (k_restless | k_touched)) != 0u;
     if (keeps_awake && (island_fill[island] & k_awake) == 0u) atomicOr(island_fill[island], k_awake);
     bool is_tall = (island_fill[body] & k_tall) != 0u;
     if (is_tall && (island_fill[island] & k_tall) == 0u) atomicOr(island_fill[island], k_tall);
-    bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
-    atomicAdd(island_sizes[island], is_hub ? 1u + k_most_single : 1u);
-    if (is_part)
-        stand_for_island(island, unpack(rests[body]).calm);
-    else if (args.x == 0u)
-        atomicAdd(island_starts[island], 1u);
+    if (is_part(body)) stand_for_island(island, unpack(rests[body]).calm);
+    return island;
+}
+
+// Of the islands of the group's bodies one, in which most of them often are, and what these add to it: a large island would wait for
+// each of them.
+shared uint main_island;
+shared uint main_size;
+shared uint main_bodies;
+shared uint main_substeps;
+
+void main()
+{
+    bool is_first = gl_LocalInvocationID.x == 0u;
+    if (is_first) {
+        main_island = k_none;
+        main_size = 0u;
+        main_bodies = 0u;
+        main_substeps = 0u;
+    }
+    barrier();
+    uint body = item_index();
+    uint island = name_island(body);
+    if (island != k_none) atomicMin(main_island, island);
+    barrier();
+    if (island != k_none) {
+        bool is_hub = body_colours[body_word(body, k_hub_word)] != 0u;
+        uint size = is_hub ? 1u + k_most_single : 1u;
+        uint bodies = args.x == 0u ? 1u : 0u;
+        if (island == main_island) {
+            atomicAdd(main_size, size);
+            atomicAdd(main_bodies, bodies);
+            atomicMax(main_substeps, substeps[body]);
+        } else {
+            add_to(island, size, bodies, substeps[body]);
+        }
+    }
+    barrier();
+    if (is_first && main_island != k_none) add_to(main_island, main_size, main_bodies, main_substeps);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One group, an invocation for each colour: where it begins, and where what has a rate in it ends; whether the colours and the
-// sub-steps fit, and the launches of the resolution. args.x: 1 where what is launched has been counted apart. args.y: 0 where a
-// work group solves each island, so that colours and sub-steps need no launches; hubs cannot be solved there. args.z: 1 where the
-// graph has not been made, as it should be the last step's. args.w: 1 where the overflow set has launches.
+// One group, an invocation for each colour, and in a search for each rate of it: where it begins, and where what has a rate in it ends;
+// whether the colours and the sub-steps fit, and the launches of the resolution. args.x: 1 where what is launched has been counted
+// apart. args.y: 0 where a work group solves each island, so that colours and sub-steps need no launches; hubs cannot be solved there.
+// args.z: 1 where the graph has not been made, as it should be the last step's. args.w: 1 where the overflow set has launches.
 // Reads: ManifoldKeys, Counters.
 // Writes: ColourOffsets, where the graph is a new one; Counters, Dispatches, Arrivals.
 // Needs: a barrier after the sort of the manifolds.
@@ -12,7 +12,7 @@
 #include "state/dispatch.shared.glsl"
 #include "resolution/island.shared.glsl"
 
-layout(local_size_x = 64) in; // k_max_colours
+layout(local_size_x = 384) in; // k_max_colours * k_slownesses
 
 layout(std430) readonly buffer ManifoldKeys { uint manifold_keys[]; };
 layout(std430) buffer ColourOffsets { uint colour_offsets[]; };
@@ -37,17 +37,23 @@ uint first_of(uint key)
     return first;
 }
 
+// Of the first manifold that a word of ColourOffsets says the place of.
+uint key_of_word(uint word, bool apart)
+{
+    if (word < k_colour_offsets) return first_key(word, apart);
+    uint rate = word - k_rate_ends;
+    return launched_key(rate % k_max_colours, rate / k_max_colours + 1u);
+}
+
 // Of the manifolds that no work group solves. `apart`: they have keys of their own.
 void find_offsets(bool is_new, bool apart)
 {
-    for (uint colour = gl_LocalInvocationID.x; colour < k_colour_offsets; colour += gl_WorkGroupSize.x) {
-        offsets[colour] = is_new ? first_of(first_key(colour, apart)) : colour_offsets[colour];
-        if (is_new) colour_offsets[colour] = offsets[colour];
+    bool has_rates = is_new && counters[k_counter_multirate_islands] != 0u;
+    for (uint word = gl_LocalInvocationID.x; word < (has_rates ? k_offset_words : k_colour_offsets); word += gl_WorkGroupSize.x) {
+        uint offset = is_new ? first_of(key_of_word(word, apart)) : colour_offsets[word];
+        if (word < k_colour_offsets) offsets[word] = offset;
+        if (is_new) colour_offsets[word] = offset;
     }
-    if (!is_new || counters[k_counter_multirate_islands] == 0u) return;
-    uint colour = gl_LocalInvocationID.x;
-    for (uint r = 0u; r < k_most_doublings; ++r)
-        colour_offsets[rate_end_word(colour, r)] = first_of(launched_key(colour, r + 1u));
 }
 
 void main()
@@ -75,6 +81,7 @@ void main()
 
     uint on = did_not_fit == 0u ? 1u : 0u;
     barrier(); // all have read the counters
+    if (colour >= k_max_colours) return;
     uint count = launches ? offsets[colour + 1u] - offsets[colour] : 0u;
     dispatches[k_dispatch_colours + colour] = groups_for(on * count, k_group_size);
     if (colour != 0u) return;

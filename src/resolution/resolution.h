@@ -38,6 +38,7 @@ extern const Kernel assign_colours;
 extern const Kernel weigh_hubs;
 extern const Kernel find_islands;
 extern const Kernel join_islands;
+extern const Kernel shorten_paths;
 extern const Kernel measure_islands;
 extern const Kernel choose_sleepers;
 extern const Kernel begin_awake;

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// One invocation is a body slot: it is hung from its root itself. What is joined then finds that two bodies are of one island by looking
+// at these alone.
+// Reads: Counters. Writes: Islands.
+// Needs: a barrier after join_islands.
+// Overflow: none.
+layout(local_size_x = 64) in;
+
+layout(std430) readonly buffer Counters { uint counters[]; };
+layout(std430) coherent buffer Islands { uint islands[]; };
+
+void main()
+{
+    uint body = item_index();
+    if (body >= counters[k_counter_graph_bodies] || islands[body] == k_none) return;
+    uint root = islands[body];
+    while (islands[root] != root) root = islands[root]; // roots stay what they are
+    islands[body] = root;
+}
