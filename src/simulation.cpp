@@ -123,7 +123,7 @@ uint share_of_manifolds(uint demand) {
 
 /// `goes_on`: they have grown lately, as those of a heap do while it falls, and will again.
 uint share_of_pairs(uint demand, bool goes_on) {
-    return demand < k_large_demand || goes_on ? 4 : 24;
+    return demand < k_large_demand || goes_on ? 4 : 16;
 }
 
 } // namespace
@@ -269,6 +269,7 @@ void Simulation::grow_contacts(uint pairs, uint manifolds, uint bodies) {
                          .boxes = boxes_of_search(slots),
                          .sorted = std::max({pair_capacity, slots, k_mark_words}), // and marks of pairs lie there
                          .fast_words = words_of_fast_bodies(settings, slots),
+                         .partners = partners,
                          .keeps_old = watches_contacts()};
     if (cpu) cpu->reserve_contacts(demand);
     if (info.kind == DeviceKind::Hybrid) { // nothing is solved, and no watch told, on the other one

@@ -57,11 +57,12 @@ std::vector<ContactRoom> ways_with_few_constraints(const ContactRoom& room) {
     return all;
 }
 
+/// A search uses all of the table.
 ContactDemand demand_of(uint pairs, uint manifolds, bool keeps_old = false, uint table_size = 0, uint boxes = 0) {
     ContactDemand demand;
     demand.pairs = pairs;
     demand.manifolds = manifolds;
-    demand.table_size = table_size;
+    demand.table_size = demand.partners = table_size;
     demand.boxes = boxes;
     demand.keeps_old = keeps_old;
     return demand;
@@ -71,8 +72,8 @@ ContactRoom room_for(uint pairs, uint manifolds, bool keeps_old, uint table_size
     return ContactRoom(demand_of(pairs, manifolds, keeps_old, table_size, boxes));
 }
 
-// Pairs, manifolds, words of the table, boxes, words to sort, words of fast bodies.
-constexpr std::array<ContactDemand, 12> k_sizes{{{0, 0, 0, 0, 0, 0},
+// Pairs, manifolds, words of the table, boxes, words to sort, words of fast bodies, words of partners.
+constexpr std::array<ContactDemand, 15> k_sizes{{{0, 0, 0, 0, 0, 0},
                                                  {1, 1, 2, 5, 8, 0},
                                                  {3, 0, 8, 2, 9, 1},
                                                  {3, 3, 8, 0, 3, 700},
@@ -83,7 +84,10 @@ constexpr std::array<ContactDemand, 12> k_sizes{{{0, 0, 0, 0, 0, 0},
                                                  {1000, 600, 65'536, 9, 1000, 70'000},
                                                  {1000, 1000, 2048, 300, 5000, 65},
                                                  {1000, 1000, 2048, 300, 1000, 70'000},
-                                                 {1000, 1000, 65'536, 8192, 0, 700}}};
+                                                 {1000, 1000, 65'536, 8192, 0, 700},
+                                                 {1000, 600, 65'536, 9, 1000, 0, 65'536},
+                                                 {1000, 600, 65'536, 10'000, 1000, 700, 16'000},
+                                                 {1000, 600, 65'536, 300, 1000, 700, 1}}};
 
 // ---- places ----
 
@@ -121,8 +125,12 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                 for (const ContactRoom::Place list : lists) {
                     EXPECT_GT(list.bytes, 0u);
                     EXPECT_EQ(list.offset % 256, 0u);
-                    EXPECT_GE(list.offset, boxes.offset);
-                    EXPECT_LE(list.offset + list.bytes, boxes.offset + boxes.bytes);
+                    EXPECT_LE(list.offset + list.bytes, room.bytes());
+                    EXPECT_FALSE(overlap(list, table)) << "the narrow phase has the first list and the table";
+                    EXPECT_FALSE(keeps_old && overlap(list, constraints));
+                    EXPECT_FALSE(keeps_old && overlap(list, fast));
+                    for (const BufferId id : all_contacts())
+                        EXPECT_FALSE(overlap(list, room.place(id))) << "contacts are there when it is made";
                 }
                 EXPECT_GE(lists[0].bytes, size.pairs * sizeof(uint));
                 EXPECT_GE(lists[1].bytes, size.sorted * sizeof(uint));
@@ -133,7 +141,11 @@ TEST(ContactRooms, have_places_where_blocks_may_begin_and_none_over_another_but_
                 EXPECT_GE(boxes.bytes, size.boxes * sizeof(engine::Aabb));
                 EXPECT_LE(boxes.offset + boxes.bytes, room.bytes());
                 EXPECT_EQ(boxes.offset % 256, 0u);
-                EXPECT_FALSE(overlap(boxes, table)) << "the search has both";
+                const ContactRoom::Place partners{table.offset, size.partners * sizeof(uint)};
+                EXPECT_LE(partners.bytes, table.bytes);
+                EXPECT_FALSE(overlap(boxes, partners)) << "the search has both";
+                EXPECT_FALSE(keeps_old && overlap(boxes, constraints));
+                EXPECT_FALSE(keeps_old && overlap(boxes, fast));
                 for (const BufferId id : all_contacts()) {
                     const ContactRoom::Place place = room.place(id);
                     EXPECT_EQ(place.offset % 256, 0u);
@@ -233,6 +245,15 @@ TEST(ContactRooms, need_memory_for_a_search_only_where_it_is_longer_than_what_co
     EXPECT_EQ(room_for(pairs, pairs, true, 4 * pairs, pairs).bytes(), (2u * 176u + 240u + 16u + 32u) * pairs + 256);
     const ContactRoom room = room_for(pairs, pairs, false);
     EXPECT_TRUE(room.grown(demand_of(pairs, pairs, false, 4 * pairs, pairs)).has_places_of(room));
+}
+
+TEST(ContactRooms, have_the_boxes_of_a_search_over_what_it_leaves_of_the_table) {
+    constexpr uint pairs = 256 * 32;
+    ContactDemand demand = demand_of(pairs, 0, false, 16 * pairs, pairs);
+    demand.partners = 14 * pairs;
+    EXPECT_EQ(ContactRoom(demand).bytes(), (2u * 176 + 14 * 4 + 32) * pairs);
+    demand.partners = 8 * pairs; // then the list and what sorts need are longer
+    EXPECT_EQ(ContactRoom(demand).bytes(), (2u * 176 + 16 * 4 + 4) * pairs + 512);
 }
 
 TEST(ContactRooms, that_grow_have_the_same_parts_alive_and_never_shrink) {

@@ -73,6 +73,7 @@ struct ContactDemand {
     uint boxes = 0;         ///< records of TreeNodes, or of SortedAabbs
     uint sorted = 0;        ///< words of SwapKeys, and of SwapValues
     uint fast_words = 0;    ///< words of FastBodies
+    uint partners = 0;      ///< the first words of PairTable, which a search has beside its boxes
     bool keeps_old = false; ///< Constraints never lie over the old contacts, as the end of a step reads them
 };
 

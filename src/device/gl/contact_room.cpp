@@ -36,6 +36,8 @@ void ContactRoom::fit(const ContactDemand& demand) {
     demand_.boxes = std::max({demand.boxes, demand_.boxes, 1u});
     demand_.sorted = std::max({demand.sorted, demand_.sorted, 1u});
     demand_.fast_words = std::max({demand.fast_words, demand_.fast_words, 1u});
+    demand_.partners = std::max(demand.partners, demand_.partners);
+    TALUS_ASSERT(demand_.partners <= demand_.table_size, "partners have room in the table");
     demand_.keeps_old = demand.keeps_old || demand_.keeps_old;
     arrays_bytes_ = 0;
     for (const BufferId buffer : k_contact_buffers)
@@ -46,7 +48,8 @@ void ContactRoom::fit(const ContactDemand& demand) {
     table_bytes_ = aligned(demand_.table_size * element_bytes(BufferId::PairTable));
     list_bytes_ = aligned(demand_.pairs * element_bytes(BufferId::Uncoloured));
     swap_bytes_ = aligned(demand_.sorted * element_bytes(BufferId::SwapKeys));
-    turns_bytes_ = std::max(aligned(demand_.boxes * element_bytes(BufferId::TreeNodes)), list_bytes_ + 2 * swap_bytes_);
+    partners_bytes_ = aligned(demand_.partners * element_bytes(BufferId::PairTable));
+    boxes_bytes_ = aligned(demand_.boxes * element_bytes(BufferId::TreeNodes));
 }
 
 std::size_t ContactRoom::gap_bytes() const {
@@ -73,7 +76,7 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
     }
     const std::size_t table_begin = demand_.keeps_old ? behind + solver_bytes() : arrays_bytes_;
     if (id == BufferId::PairTable) return {table_begin, table_bytes_};
-    if (is_one_of(k_by_turns, id)) return place_by_turns(id, table_begin + table_bytes_);
+    if (is_one_of(k_by_turns, id)) return place_by_turns(id, table_begin);
     const bool is_old = is_one_of(k_old_contact_buffers, id);
     Place place{is_old == starts_with_old_ ? 0 : arrays_bytes_ + gap_bytes(), 0};
     for (const BufferId buffer : is_old ? k_old_contact_buffers : k_contact_buffers) {
@@ -85,11 +88,12 @@ ContactRoom::Place ContactRoom::place(BufferId id) const {
     return {};
 }
 
-ContactRoom::Place ContactRoom::place_by_turns(BufferId id, std::size_t begin) const {
+ContactRoom::Place ContactRoom::place_by_turns(BufferId id, std::size_t table_begin) const {
+    const std::size_t begin = table_begin + table_bytes_;
     if (id == BufferId::Uncoloured) return {begin, list_bytes_};
     if (id == BufferId::SwapKeys) return {begin + list_bytes_, swap_bytes_};
     if (id == BufferId::SwapValues) return {begin + list_bytes_ + swap_bytes_, swap_bytes_};
-    return {begin, turns_bytes_};
+    return {table_begin + partners_bytes_, boxes_bytes_};
 }
 
 bool ContactRoom::is_covered(BufferId id) const {

@@ -4,18 +4,21 @@
 //
 //     [ four arrays ][ gap, where the constraints are longer, or PairTable and by turns others ][ four arrays ]
 //
-// In the gap lie PairTable and behind it, by turns, the boxes that a search has put in order, as TreeNodes or as
-// SortedAabbs, and then what steps list, as Uncoloured, and what sorts need besides their keys and values. It is as
-// long as these at least: constraints are not wanted any more when the broad phase begins to use them, and they are not
-// when constraints are made. Behind the constraints lie FastBodies, which are wanted while these are solved. The arrays
-// at the start are the new contacts and those at the end the old ones, or the other way round: swap makes the new ones
-// old. The constraints lie over the one or the other, and over the gap: in a step over the old contacts from where they
-// are placed on, and over the new ones from its end until the next search. A step that has few of them may place them
-// into the gap alone. Where the end of a step needs the old contacts, and the table, there is no gap, and the
-// constraints, the table and what is behind it lie behind all of these.
+// In the gap lie PairTable and by turns the boxes that a search has put in order, as TreeNodes or as SortedAabbs,
+// behind as much of the table as the search itself needs, and then, behind all of the table, what steps list, as
+// Uncoloured, and what sorts need besides their keys and values. It is as long as these at least: constraints are not
+// wanted any more when the broad phase begins to use them, and they are not when constraints are made. Behind the
+// constraints lie FastBodies, which are wanted while these are solved. The arrays at the start are the new contacts and
+// those at the end the old ones, or the other way round: swap makes the new ones old. The constraints lie over the one
+// or the other, and over the gap: in a step over the old contacts from where they are placed on, and over the new ones
+// from its end until the next search. A step that has few of them may place them into the gap alone. Where the end of a
+// step needs the old contacts, and the table, there is no gap, and the constraints, the table and what is behind it lie
+// behind all of these.
 //
 // This only reckons; see GlDevice for the buffer.
 #pragma once
+
+#include <algorithm>
 
 #include "device/device.h"
 
@@ -66,21 +69,24 @@ public:
 private:
     void fit(const ContactDemand&);
     /// Of all that is wanted before the constraints.
-    std::size_t bytes_before() const { return table_bytes_ + turns_bytes_; }
+    std::size_t bytes_before() const {
+        return std::max(partners_bytes_ + boxes_bytes_, table_bytes_ + list_bytes_ + 2 * swap_bytes_);
+    }
     std::size_t gap_bytes() const;
     /// Of the constraints and what lies behind them.
     std::size_t solver_bytes() const { return constraint_bytes_ + fast_bytes_; }
-    /// What begins there by turns.
-    Place place_by_turns(BufferId, std::size_t begin) const;
+    /// What takes turns over and behind the table, which begins there.
+    Place place_by_turns(BufferId, std::size_t table_begin) const;
 
     ContactDemand demand_;         // the most so far, of each
     std::size_t arrays_bytes_ = 0; // of the new contacts, or of the old ones
     std::size_t constraint_bytes_ = 0;
     std::size_t fast_bytes_ = 0;
     std::size_t table_bytes_ = 0;
-    std::size_t list_bytes_ = 0;  // of Uncoloured
-    std::size_t swap_bytes_ = 0;  // of SwapKeys, and of SwapValues
-    std::size_t turns_bytes_ = 0; // of what lies there by turns
+    std::size_t partners_bytes_ = 0; // of the table's beginning, which a search uses
+    std::size_t boxes_bytes_ = 0;    // of TreeNodes, and of SortedAabbs
+    std::size_t list_bytes_ = 0;     // of Uncoloured
+    std::size_t swap_bytes_ = 0;     // of SwapKeys, and of SwapValues
 
     bool starts_with_old_ = true;
     ConstraintPlace constraints_ = ConstraintPlace::OverNewContacts;
