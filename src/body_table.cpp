@@ -101,9 +101,12 @@ void BodyTable::reserve(std::size_t more, uint threads) {
 
 void BodyTable::append_slots(std::size_t count, uint threads) {
     const std::size_t slots = uses.size() + count;
-    for_each_slot_list([&](auto& list) { // all of them, or none is longer
+    const auto reserve_slots = [slots](auto& list) {
         if (list.capacity() < slots) list.reserve(std::max(slots, 2 * list.capacity()));
-    });
+    };
+    for_each_slot_list(reserve_slots); // where there is no memory no list is longer than another
+    reserve_slots(generations);
+    reserve_slots(next_generations);
     if (threads > 1 && count >= k_many_bodies) {
         std::vector<std::function<void()>> tasks;
         for_each_slot_list([&](auto& list) { tasks.emplace_back([&list, slots] { list.resize(slots); }); });
@@ -174,11 +177,23 @@ std::vector<BodyId> BodyTable::add(std::span<const BodyDefinition> definitions, 
     reserve(count, threads);
     std::vector<BodyId> ids;
     reserve_touched(ids, count, threads);
-    for (uint slot = take_free_slot(); slot != k_none; slot = ids.size() < count ? take_free_slot() : k_none)
+    while (ids.size() < count) {
+        const uint slot = take_free_slot();
+        if (slot == k_none) break;
+        uses[slot] = Use::Present; // the list of free ones may have it twice
         ids.push_back({slot, 0});
-    const std::size_t left = count - ids.size();
+    }
     uint next = slot_count();
-    if (left > 0) append_slots(left, threads);
+    try {
+        append_slots(count - ids.size(), threads);
+    } catch (...) {
+        for (const BodyId id : ids) {
+            uses[id.index] = Use::Free;
+            free_slots.push_back(id.index);
+            std::ranges::push_heap(free_slots, std::greater<>{});
+        }
+        throw;
+    }
     while (ids.size() < count)
         ids.push_back({next++, 0});
 
@@ -335,23 +350,23 @@ BodyChanges BodyTable::take_changes(bool with_loads, uint threads) {
         }
         return change;
     };
-    BodyChanges all(6);
+    BodyChanges changes(6);
     const std::array<std::function<void()>, 6> tasks{
-        [&] { all[0] = take(k_dirty_pose, BufferId::Poses, poses); },
-        [&] { all[1] = take(k_dirty_velocity, BufferId::Velocities, velocities); },
-        [&] { all[2] = take(k_dirty_shape, BufferId::Shapes, shapes); },
-        [&] { all[3] = take(k_dirty_properties, BufferId::Properties, properties); },
+        [&] { changes[0] = take(k_dirty_pose, BufferId::Poses, poses); },
+        [&] { changes[1] = take(k_dirty_velocity, BufferId::Velocities, velocities); },
+        [&] { changes[2] = take(k_dirty_shape, BufferId::Shapes, shapes); },
+        [&] { changes[3] = take(k_dirty_properties, BufferId::Properties, properties); },
         [&] {
-            if (with_loads) all[4] = take(k_dirty_load, BufferId::Loads, loads);
+            if (with_loads) changes[4] = take(k_dirty_load, BufferId::Loads, loads);
         },
-        [&] { all[5] = take(k_dirty_contacts, BufferId::Starts, std::span<const BodyStart>()); },
+        [&] { changes[5] = take(k_dirty_contacts, BufferId::Starts, std::span<const BodyStart>()); },
     };
     side_by_side(changed.size() >= k_many_bodies ? threads : 1, tasks);
-    std::erase_if(all, [](const RecordChanges& change) { return change.slots.empty(); });
+    std::erase_if(changes, [](const RecordChanges& change) { return change.slots.empty(); });
     for (const uint slot : changed)
         dirty[slot] = 0;
     changed.clear();
-    return all;
+    return changes;
 }
 
 } // namespace talus::engine

@@ -13,8 +13,8 @@ void share_parts(std::size_t count, unsigned threads, std::size_t least,
                  const std::function<void(std::size_t first, std::size_t end)>& work);
 
 /// Calls `work` with parts of the numbers below `count`, [first, end), which together are all of them; side by side on
-/// so many threads, in parts of `least` or more, where there are several such. What one of them throws is thrown here,
-/// once none runs any more.
+/// so many threads, in parts of half of `least` or more, where there are several of `least`. What one of them throws is
+/// thrown here, once none runs any more.
 template <typename Work> void in_parts(std::size_t count, unsigned threads, std::size_t least, const Work& work) {
     if (threads > 1 && count >= 2 * least)
         share_parts(count, threads, least, std::cref(work));
@@ -22,7 +22,7 @@ template <typename Work> void in_parts(std::size_t count, unsigned threads, std:
         work(std::size_t{0}, count);
 }
 
-/// Does all of it, in any order.
+/// Does all of it, in any order; where one throws, perhaps not the others.
 void side_by_side(unsigned threads, std::span<const std::function<void()>> tasks);
 
 } // namespace talus::engine

@@ -57,6 +57,7 @@ struct StepPlan {
     bool in_groups = false;  ///< work groups solve islands: each of a small world, the little ones of a large world
     uint largest_island = 0; ///< manifolds, lately, in a small world
     bool singles = false;    ///< in a large world a work group may solve a single island, too large to share one
+    uint joined_twice = 1u << 19; ///< bodies from which on islands are joined in two launches, see resolution.cpp
     uint least_multirate = k_least_multirate; ///< bodies, where islands may be multirate
     uint colouring_groups = 1;                ///< that colour new contacts, waiting for each other
     uint weighing_groups = 1;                 ///< that find the loads on hubs where no graph is made, in the same way

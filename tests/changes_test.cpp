@@ -185,6 +185,17 @@ TEST(BodyTables, give_each_changed_record_once_and_in_order) {
     }
 }
 
+TEST(BodyTables, stay_as_they_are_where_no_body_is_added) {
+    engine::BodyTable table;
+    const std::vector<BodyId> ids = table.add(scattered(3));
+    table.remove(ids[0]);
+    table.recycle();
+    EXPECT_TRUE(table.add(std::span<const BodyDefinition>()).empty());
+    EXPECT_EQ(table.slot_count(), 3u);
+    EXPECT_EQ(table.body_count(), 2u);
+    EXPECT_EQ(table.add(scattered(1).front()).index, 0u) << "the free slot still is";
+}
+
 /// Twice as many as are worth other threads, in slots of their own and in those that others have left.
 TEST(BodyTables, of_many_bodies_are_those_of_one_after_the_other) {
     using engine::uint;
@@ -198,15 +209,18 @@ TEST(BodyTables, of_many_bodies_are_those_of_one_after_the_other) {
     engine::BodyTable one_by_one, together;
     for (engine::BodyTable* const table : {&one_by_one, &together}) {
         const std::vector<BodyId> first = table->add(std::span(bodies).first(removed));
+        table->add(bodies[0]); // it stays, as slots at the end would be gone
         for (const BodyId id : first)
             table->remove(id);
         table->recycle();
-        table->add(bodies[0]); // so that what is removed does not lie at the end alone
+        ASSERT_EQ(table->slot_count(), removed + 1);
     }
     std::vector<BodyId> ids;
     for (const BodyDefinition& body : bodies)
         ids.push_back(one_by_one.add(body));
     EXPECT_EQ(together.add(bodies, 4), ids);
+    EXPECT_EQ(ids.front().index, 0u) << "the slots of those that were removed come first";
+    EXPECT_EQ(together.slot_count(), count + 1);
     EXPECT_EQ(together.body_count(), one_by_one.body_count());
     EXPECT_EQ(together.kinematic_count, one_by_one.kinematic_count);
     EXPECT_EQ(together.bouncing_count, one_by_one.bouncing_count);

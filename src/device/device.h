@@ -152,7 +152,8 @@ public:
     /// for grow(). From then on they grow and are swapped together, and Constraints, with FastBodies behind, may lie
     /// over contacts that nobody wants any more: over the old ones from place_constraints on, and so over the new ones
     /// from swap_contacts on, until kernels write these. PairTable and those of k_by_turns may lie over Constraints, so
-    /// that each is there until kernels write the other, and TreeNodes and SortedAabbs over the others of k_by_turns.
+    /// that each is there until kernels write the other, and TreeNodes and SortedAabbs over the others of k_by_turns
+    /// and over PairTable behind its partners.
     /// Constraints and contacts that they do not lie over keep their content. Old contacts are kept for good once they
     /// are. Not while a step is on its way that may be done again.
     virtual void reserve_contacts(const ContactDemand&);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a manifold in the order of colours: the impulses of the whole step, hits included, go where its
-// pair is. Launched only where contacts are watched.
+// pair is. Launched only where contacts are watched, and for no fewer than there are: for all pairs of the graph.
 // Reads: Counters, Constraints.
 // Writes: ContactImpulses, of the pairs that the solver treats.
 // Needs: a barrier after the last pass of the solver.

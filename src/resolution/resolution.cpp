@@ -32,16 +32,11 @@ static void choose_who_sleeps(Device& device, const StepPlan& plan, SortPlace sp
     const BufferId counts = spare.keys, bits = spare.values; // nothing lies there yet
     const std::size_t groups = (plan.pair_capacity + k_count_group - 1) / k_count_group;
     device.grow(bits, k_mark_words * groups * sizeof(uint));
-    device.grow(BufferId::ListedPairs, plan.pair_capacity * sizeof(uint));
     const std::initializer_list<Binding> marks{{"MarkCounts", counts}, {"Marks", bits}};
     device.run({.kernel = mark_awake_pairs, .slot = k_dispatch_graph_counts, .bindings = marks});
     exclusive_scan(device, counts, plan.pair_capacity, k_counter_graph_pairs, k_counter_listed_pairs, k_count_group);
     device.run({.kernel = list_awake_pairs, .items = (plan.pair_capacity + 31) / 32, .bindings = marks});
 }
-
-/// Bodies from which on two launches over half of the pairs are quicker than one over all: 0.32 instead of 0.57 ms for
-/// `million`, and no quicker for half as many bodies in `brick_gables`.
-static constexpr uint k_large_heap = 1u << 19;
 
 /// The islands of a large world, and which of them a work group solves. `colours`: of pairs.
 static void find_island_groups(Device& device, const StepPlan& plan, BufferId keys, BufferId colours) {
@@ -49,7 +44,8 @@ static void find_island_groups(Device& device, const StepPlan& plan, BufferId ke
     const auto join = [&](uint part) {
         device.run({.kernel = join_islands, .slot = k_dispatch_graph_pairs, .args = {joined, part}});
     };
-    if (plan.body_count >= k_large_heap) {
+    // Quicker in a large heap: 0.32 instead of 0.57 ms for `million`; not with half as many bodies in `brick_gables`.
+    if (plan.body_count >= plan.joined_twice) {
         join(k_pairs_first);
         device.run({.kernel = shorten_paths, .items = plan.body_count});
         join(k_pairs_others);
@@ -83,6 +79,7 @@ static void make_graph(Device& device, const StepPlan& plan) {
                      .bits = manifold_key_bits(plan),
                      .slot = k_dispatch_graph_tiles,
                      .gives_places = true};
+    if (plan.sleeps_in_parts()) device.grow(BufferId::ListedPairs, plan.pair_capacity * sizeof(uint));
     const BufferId keys = unsorted_place(device, order).keys;
     // Of listed pairs the colours lie at the pairs, and the keys in the order of the list.
     const BufferId colours = plan.sleeps_in_parts() ? spare_place(device, order).keys : keys;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a body slot: it is hung from its root itself. What is joined then finds that two bodies are of one island by looking
 // at these alone.
-// Reads: Counters. Writes: Islands.
+// Reads: Counters, Islands.
+// Writes: Islands. On its way an invocation may pass what others have hung from the same root meanwhile.
 // Needs: a barrier after join_islands.
 // Overflow: none.
 layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer Counters { uint counters[]; };
-layout(std430) coherent buffer Islands { uint islands[]; };
+layout(std430) buffer Islands { uint islands[]; };
 
 void main()
 {
