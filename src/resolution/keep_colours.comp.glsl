@@ -15,7 +15,7 @@
 #include "resolution/load.shared.glsl"
 #include "resolution/hub_load.shared.glsl"
 
-layout(local_size_x = 256) in; // k_count_group
+layout(local_size_x = 1024) in; // k_count_group
 
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
 layout(std430) readonly buffer Shapes { BodyShape shapes[]; };

@@ -17,7 +17,7 @@ static void list_awake_pairs_on_cpu(CpuState& state, const Launch& launch) {
     state.dispatches[k_dispatch_graph_tiles] = groups_for(listed, k_sort_tile);
     state.dispatches[k_dispatch_graph_counts] = groups_for(listed, k_count_group);
     if (listed == 0) return;
-    state.parallel((pair_count + k_count_group - 1) / k_count_group, [&](uint group) {
+    state.parallel((pair_count + k_mark_group - 1) / k_mark_group, [&](uint group) {
         uint place = mark_counts[group];
         for (uint word = k_mark_words * group; word < k_mark_words * (group + 1); ++word)
             for (uint bits = marks[word]; bits != 0; bits &= bits - 1)

@@ -2,14 +2,14 @@
 // One invocation is a pair: a bit is 1 where the constraint graph is made of it, as something about it is awake, or is touched by what
 // is. All others sleep. Both are counted, by each group first.
 // Reads: Counters, Manifolds, Islands, IslandFill.
-// Writes: MarkCounts, one a group; Marks, k_mark_words a group; Counters.
+// Writes: MarkCounts, one for k_mark_group pairs; Marks, k_mark_words for these; Counters.
 // Needs: a barrier after press_sleepers.
 // Overflow: none; there is a mark for every pair.
 #include "state/math.shared.glsl"
 #include "resolution/colouring.shared.glsl"
 #include "resolution/island.shared.glsl"
 
-layout(local_size_x = 256) in; // k_count_group
+layout(local_size_x = 1024) in; // k_count_group
 
 layout(std430) buffer Counters { uint counters[]; };
 layout(std430) readonly buffer Manifolds { ManifoldCells manifolds[]; };
@@ -20,7 +20,7 @@ layout(std430) writeonly buffer Marks { uint marks[]; };
 
 shared uint manifold_count;
 shared uint contact_count;
-shared uint bits[k_mark_words];
+shared uint bits[k_count_group / 32u];
 
 bool is_in_graph(uint body) { return islands[body] != k_none || (island_fill[body] & k_pressed) != 0u; }
 
@@ -28,7 +28,7 @@ void main()
 {
     uint me = gl_LocalInvocationID.x;
     bool is_first = me == 0u;
-    if (me < k_mark_words) bits[me] = 0u;
+    if (me < bits.length()) bits[me] = 0u;
     if (is_first) {
         manifold_count = 0u;
         contact_count = 0u;
@@ -46,14 +46,15 @@ void main()
         }
     }
     barrier();
-    if (group_index() * k_count_group >= counters[k_counter_graph_pairs]) return;
-    if (me < k_mark_words) marks[k_mark_words * group_index() + me] = bits[me];
-    if (!is_first) return;
-    uint listed_count = 0u;
-    for (uint word = 0u; word < k_mark_words; ++word)
-        listed_count += uint(bitCount(bits[word]));
-    mark_counts[group_index()] = listed_count;
-    if (manifold_count == 0u) return;
+    bool has_pairs = pair - me % k_mark_group < counters[k_counter_graph_pairs]; // whether some are counted together with it
+    if (has_pairs && me % 32u == 0u) marks[pair / 32u] = bits[me / 32u];
+    if (has_pairs && me % k_mark_group == 0u) {
+        uint listed_count = 0u;
+        for (uint word = 0u; word < k_mark_words; ++word)
+            listed_count += uint(bitCount(bits[me / 32u + word]));
+        mark_counts[pair / k_mark_group] = listed_count;
+    }
+    if (!is_first || manifold_count == 0u) return;
     atomicAdd(counters[k_counter_manifold_count], manifold_count);
     atomicAdd(counters[k_counter_sleeping_manifolds], manifold_count);
     atomicAdd(counters[k_counter_contact_count], contact_count);

@@ -14,7 +14,7 @@ static void mark_awake_pairs_on_cpu(CpuState& state, const Launch& launch) {
         return state.islands[body] != k_none || (state.island_fill[body] & k_pressed) != 0;
     };
     const uint pair_count = state.counters[k_counter_graph_pairs],
-               groups = (pair_count + k_count_group - 1) / k_count_group;
+               groups = (pair_count + k_mark_group - 1) / k_mark_group;
     std::fill_n(mark_counts.data, groups, 0u);
     std::fill_n(marks.data, std::size_t{k_mark_words} * groups, 0u);
     for (uint pair = 0; pair < pair_count; ++pair) {
@@ -22,7 +22,7 @@ static void mark_awake_pairs_on_cpu(CpuState& state, const Launch& launch) {
         const bool active = is_active(manifold);
         const bool listed = active && (is_in_graph(manifold.body_a) || is_in_graph(manifold.body_b));
         if (listed) {
-            ++mark_counts[pair / k_count_group];
+            ++mark_counts[pair / k_mark_group];
             marks[pair / 32] |= 1u << (pair % 32);
         }
         if (!active || listed) continue;

@@ -30,11 +30,11 @@ static void choose_who_sleeps(Device& device, const StepPlan& plan, SortPlace sp
     device.run({.kernel = begin_awake, .items = plan.body_count});
     device.run({.kernel = press_sleepers, .slot = k_dispatch_graph_pairs});
     const BufferId counts = spare.keys, bits = spare.values; // nothing lies there yet
-    const std::size_t groups = (plan.pair_capacity + k_count_group - 1) / k_count_group;
+    const std::size_t groups = (plan.pair_capacity + k_mark_group - 1) / k_mark_group;
     device.grow(bits, k_mark_words * groups * sizeof(uint));
     const std::initializer_list<Binding> marks{{"MarkCounts", counts}, {"Marks", bits}};
     device.run({.kernel = mark_awake_pairs, .slot = k_dispatch_graph_counts, .bindings = marks});
-    exclusive_scan(device, counts, plan.pair_capacity, k_counter_graph_pairs, k_counter_listed_pairs, k_count_group);
+    exclusive_scan(device, counts, plan.pair_capacity, k_counter_graph_pairs, k_counter_listed_pairs, k_mark_group);
     device.run({.kernel = list_awake_pairs, .items = (plan.pair_capacity + 31) / 32, .bindings = marks});
 }
 

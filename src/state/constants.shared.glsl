@@ -181,8 +181,9 @@ const uint k_group_size = 64u;   // invocations a group of kernels that treat on
 const uint k_sort_tile = 1024u;  // keys that one group sorts
 const uint k_digits = 256u;      // values of the sort's digit
 const uint k_spread_group = 256u; // bodies that one group sums
-const uint k_count_group = 256u;  // items that one group counts: with small groups, what they add up waits for one word
-const uint k_mark_words = k_count_group / 32u; // of a bit for each of them
+const uint k_count_group = 1024u; // pairs that one group counts: what groups add up waits for one word, 5 ns for each
+const uint k_mark_group = 256u;    // pairs whose marks are counted together
+const uint k_mark_words = k_mark_group / 32u; // of a bit for each of them
 // Of Arrivals, see primitives/grid_barrier.glsl.
 const uint k_all_fastest_bodies = 3u;    // the word with how many bodies of a multirate solve are listed from the front
 const uint k_all_other_fast_bodies = 4u; // and from the end of their list
