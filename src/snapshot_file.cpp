@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace engine;
 
 constexpr std::string_view k_magic = "TALUSSNP";
-constexpr std::uint32_t k_version = 21;
+constexpr std::uint32_t k_version = 22;
 constexpr std::size_t k_head_size = 12; // magic, version
 constexpr int k_compression_level = 3;
 

@@ -2,17 +2,17 @@
 // A barrier across all groups of a launch. OpenGL does not promise that groups which wait let others run, so a launch may
 // have only as many as are known to run side by side: Device::resident_groups, which asks count_resident_groups here.
 // Before this file the kernel declares Counters, and defines uint meeting_groups(): how many groups meet, the first ones
-// of the launch.
+// of the launch. They may become fewer, behind a meeting of all that have met so far.
 
 // 0: all groups that have arrived; 1: what was counted; the others are for kernels
 layout(std430) coherent volatile buffer Arrivals { uint arrivals[]; };
 
-uint meetings = 0u;
+uint expected = 0u; // to have arrived, in all meetings
 
 // Some seconds: nobody waits for so long whose partners run at all.
 const uint k_most_polls = 1u << 22;
 
-bool have_arrived(uint expected) { return int(arrivals[0] - expected) >= 0; }
+bool have_arrived() { return int(arrivals[0] - expected) >= 0; }
 
 const uint k_so_many = 0x40000000u;
 
@@ -29,14 +29,13 @@ void give_up()
 // the launch begins.
 void wait_for_all_groups()
 {
-    ++meetings;
+    expected += meeting_groups();
     memoryBarrierBuffer();
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
-        uint expected = meetings * meeting_groups();
         atomicAdd(arrivals[0], 1u);
-        for (uint i = 0u; i < k_most_polls && !have_arrived(expected); ++i) {}
-        if (!have_arrived(expected)) give_up();
+        for (uint i = 0u; i < k_most_polls && !have_arrived(); ++i) {}
+        if (!have_arrived()) give_up();
     }
     barrier();
     memoryBarrierBuffer(); // barrier() orders shared memory only

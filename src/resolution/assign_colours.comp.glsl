@@ -2,8 +2,8 @@
 // Colours the listed manifolds in rounds. In each round a manifold that outranks all others at both its bodies takes the
 // first colour free at both (Jones and Plassmann). Before that it finds the hubs, which do not count as bodies for most
 // of their manifolds, and the loads on them. As many groups as have manifolds wait for each other after each part of a
-// round; it is one where little is new. What has kept a colour far down is looked at first, and gives it up where it may find a
-// better one. Where all is new, it is coloured again.
+// round; it is one where little is new. What has kept a doubtful colour is looked at first, and joins the others where it gives it
+// up. Where all is new, it is coloured again.
 // args.x: 1 to count how many groups can run at a time instead. args.y: 1 where bodies may sleep that are in the graph.
 // Reads: Manifolds, Shapes; Substeps where bodies may sleep.
 // Writes: ManifoldKeys (the colour, where the load was), Counters, Hubs (in any order); BodyColours, Uncoloured and Arrivals
@@ -35,6 +35,12 @@ const uint k_all_left_over = 2u; // the word of Arrivals with those of all group
 
 uint group_count; // that have manifolds
 uint meeting_groups() { return group_count; }
+
+// As many groups as there are entries for, the first ones of the launch.
+void meet_for(uint entry_count)
+{
+    group_count = min((entry_count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, gl_NumWorkGroups.x);
+}
 
 #include "primitives/grid_barrier.glsl"
 
@@ -124,16 +130,31 @@ uint edges_of(uint body)
 // A sleeper, whose contacts are not all listed, is none.
 bool makes_hub(uint body) { return is_hub(edges_of(body), parameters) && !(args.y == 1u && substeps[body] == 0u); }
 
-// Takes one off the list that keeps its colour after all.
-void look_at_kept(uint entry)
+bool gives_up_colour(Manifold manifold)
+{
+    uint a = manifold.body_a;
+    uint b = manifold.body_b;
+    bool is_of_hub = makes_hub(a) || makes_hub(b);
+    bool gives = gives_up(manifold.colour, edges_of(a), edges_of(b));
+    if (is_lent(manifold.colour, is_movable(shapes[a]) && is_movable(shapes[b])))
+        gives = gives_back(body_colours[body_word(a, k_used_high)] | body_colours[body_word(b, k_used_high)],
+                           body_colours[body_word(a, k_new_edges)], body_colours[body_word(b, k_new_edges)]);
+    return gives && !is_of_hub;
+}
+
+// `entry`: of what is doubtful; `end`: the first of these. What gives its colour up comes behind what has none, as long as there is
+// room between the two.
+void look_at_doubtful(uint entry, uint end)
 {
     uint pair = uncoloured[entry] & ~k_has_kept;
     Manifold manifold = manifolds[pair];
-    uint edges_a = edges_of(manifold.body_a);
-    uint edges_b = edges_of(manifold.body_b);
-    bool is_of_hub = makes_hub(manifold.body_a) || makes_hub(manifold.body_b);
-    if (!is_of_hub && gives_up(manifold.colour, edges_a, edges_b)) return;
-    raise_counter(k_counter_colour_demand, colours_down_to(manifold.colour));
+    if (gives_up_colour(manifold)) {
+        uint place = counters[k_counter_uncoloured] + atomicAdd(counters[k_counter_given_up], 1u);
+        if (place >= end) return;
+        uncoloured[place] = pair | k_has_kept;
+    } else if (is_far_down(manifold.colour)) {
+        raise_counter(k_counter_colour_demand, colours_down_to(manifold.colour));
+    }
     uncoloured[entry] = k_none;
 }
 
@@ -315,18 +336,26 @@ void main()
         count_resident_groups();
         return;
     }
-    uint entry_count = counters[k_counter_graph_bodies] > 0u ? counters[k_counter_uncoloured] : 0u;
-    group_count = min((entry_count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x, gl_NumWorkGroups.x);
+    if (counters[k_counter_graph_bodies] == 0u) return;
+    uint new_count = counters[k_counter_uncoloured];
+    uint first_doubtful = counters[k_counter_graph_pairs] - counters[k_counter_doubtful];
+    uint entry_count = new_count + counters[k_counter_doubtful];
+    meet_for(entry_count);
     if (gl_WorkGroupID.x >= group_count) return;
-    uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint first = gl_GlobalInvocationID.x;
     uint stride = group_count * gl_WorkGroupSize.x;
     for (uint entry = first; entry < entry_count; entry += stride) {
-        if (has_kept_one(entry))
-            look_at_kept(entry);
-        else
+        if (entry < new_count)
             find_hubs(uncoloured[entry]);
+        else
+            look_at_doubtful(first_doubtful + entry - new_count, first_doubtful);
     }
     wait_for_workers();
+    entry_count = new_count + counters[k_counter_given_up];
+    if (entry_count > first_doubtful) entry_count = counters[k_counter_graph_pairs]; // some are where they were
+    meet_for(entry_count);
+    if (gl_WorkGroupID.x >= group_count) return;
+    stride = group_count * gl_WorkGroupSize.x;
     bool has_hubs = counters[k_counter_hub_count] > 0u;
     for (uint entry = first; entry < entry_count; entry += stride) {
         if (has_kept_one(entry))

@@ -26,24 +26,38 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
     };
     const auto is_sleeper = [&](uint body) { return launch.args[1] == 1 && state.substeps[body] == 0; };
     const auto makes_hub = [&](uint body) { return is_hub(edges_of(body), state.parameters) && !is_sleeper(body); };
-    const auto keeps_colour_after_all = [&](const Manifold& manifold) {
-        const bool is_of_hub = makes_hub(manifold.body_a) || makes_hub(manifold.body_b);
-        return is_of_hub || !gives_up(manifold.colour, edges_of(manifold.body_a), edges_of(manifold.body_b));
+    const auto keeps_colour_after_all = [&](const Manifold& manifold, bool both_movable) {
+        const uint a = manifold.body_a, b = manifold.body_b;
+        if (makes_hub(a) || makes_hub(b)) return true;
+        if (is_lent(manifold.colour, both_movable))
+            return !gives_back(word_of(a, k_used_high) | word_of(b, k_used_high), word_of(a, k_new_edges),
+                               word_of(b, k_new_edges));
+        return !gives_up(manifold.colour, edges_of(a), edges_of(b));
     };
     std::vector<Edge> edges;
     std::vector<uint> given_up;
-    for (uint i = 0; i < state.counters[k_counter_uncoloured]; ++i) {
+    const auto list_edge = [&](uint pair, bool both_movable) {
+        const Manifold& manifold = state.manifolds[pair];
+        edges.push_back({edge_rank(manifold.body_a, manifold.body_b, both_movable), pair});
+    };
+    const auto are_movable = [&](const Manifold& manifold) {
+        return movable(manifold.body_a) && movable(manifold.body_b);
+    };
+    for (uint i = 0; i < state.counters[k_counter_uncoloured]; ++i)
+        list_edge(state.uncoloured[i], are_movable(state.manifolds[state.uncoloured[i]]));
+    const uint pair_count = state.counters[k_counter_graph_pairs];
+    for (uint i = pair_count - state.counters[k_counter_doubtful]; i < pair_count; ++i) {
         const uint pair = state.uncoloured[i] & ~k_has_kept;
         const Manifold& manifold = state.manifolds[pair];
-        const bool has_kept = pair != state.uncoloured[i];
-        if (has_kept && keeps_colour_after_all(manifold)) {
+        const bool both_movable = are_movable(manifold);
+        if (keeps_colour_after_all(manifold, both_movable)) {
             colour_demand = max(colour_demand, colours_down_to(manifold.colour));
-            continue;
+        } else {
+            list_edge(pair, both_movable);
+            given_up.push_back(pair);
         }
-        const bool both_movable = movable(manifold.body_a) && movable(manifold.body_b);
-        edges.push_back({edge_rank(manifold.body_a, manifold.body_b, both_movable), pair});
-        if (has_kept) given_up.push_back(pair);
     }
+    state.counters[k_counter_given_up] = static_cast<uint>(given_up.size());
     std::ranges::sort(edges, std::greater{}, &Edge::rank);
     for (const Edge& edge : edges) {
         const std::array bodies{state.manifolds[edge.pair].body_a, state.manifolds[edge.pair].body_b};

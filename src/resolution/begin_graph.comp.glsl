@@ -46,6 +46,8 @@ void count_nothing()
     counters[k_counter_colour_demand] = 0u;
     counters[k_counter_overflow_count] = 0u;
     counters[k_counter_uncoloured] = 0u;
+    counters[k_counter_doubtful] = 0u;
+    counters[k_counter_given_up] = 0u;
     counters[k_counter_hub_count] = 0u;
     counters[k_counter_hub_manifolds] = 0u;
     counters[k_counter_launched_colours] = 0u;

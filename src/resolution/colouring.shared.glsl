@@ -54,11 +54,17 @@ inline uint first_free_hub_colour(uint used_high)
     return free != 0u ? k_first_hub_colour + uint(findLSB(free)) : k_overflow_colour;
 }
 
-// Whether an edge keeps the colour of the last step. The ground's last colour is only lent to others: one of the bodies may
-// have come to the ground since, and what is solved before the rest would be so for as long as they touch.
-inline bool is_kept(uint colour, bool both_movable, uint usable)
+// The ground's last colour is only lent to others: one of the bodies may come to the ground, and what is solved before the rest
+// would be so for as long as they touch. An edge gives it back then, and where one of the two colours beside it is free.
+// `used_high`: of both bodies; `new_edges_a`, `new_edges_b`: their words.
+const uint k_new_on_ground = 0x80000000u; // in the word k_new_edges: one of them is on what cannot be pushed
+
+inline bool is_lent(uint colour, bool both_movable) { return both_movable && colour == k_ground_colour; }
+
+inline bool gives_back(uint used_high, uint new_edges_a, uint new_edges_b)
 {
-    return colour < usable && !(both_movable && colour == k_ground_colour);
+    bool is_needed = ((new_edges_a | new_edges_b) & k_new_on_ground) != 0u;
+    return is_needed || (used_high & k_next_two) != k_next_two;
 }
 
 // An edge far down, in one of the colours that only a few have needed, gives its colour up where that is further down than
@@ -72,7 +78,8 @@ inline bool is_far_down(uint colour) { return colours_down_to(colour) > k_many_c
 
 inline bool gives_up(uint colour, uint edges_a, uint edges_b) { return colours_down_to(colour) > max(edges_a, edges_b) + 1u; }
 
-// In the list of what has no colour, beside a pair: it has kept one that is far down, or has got one.
+// What has kept a colour that it may give up, one far down or the ground's, is doubtful until it is known what all bodies have: it is
+// listed from the end of the list of what has no colour. There stands, beside a pair: it has kept a colour, or has got one.
 const uint k_has_kept = 0x80000000u;
 const uint k_has_got = 0x40000000u;
 
@@ -107,13 +114,15 @@ inline uint fast_body_words(uint fewest_substeps, uint most_substeps)
 const uint k_used_low = 0u;  // colours 0-31 in use at the body, a bit each
 const uint k_used_high = 1u; // colours 32-63
 const uint k_best_rank = 2u; // highest rank of the uncoloured edges; two words that take turns, round by round
-const uint k_new_edges = 4u; // edges that had no colour at the start of the step
+const uint k_new_edges = 4u; // edges that had no colour at the start of the step, and k_new_on_ground
 const uint k_hub_word = 5u;  // k_is_hub, and the number of edges that have no share: few, so that few count themselves
 // Of a hub.
 const uint k_largest_load = 6u;  // of its edges (N s): the bits of a float and 1
 const uint k_whole_load = 7u;    // of all its edges together, in parts (hub_load.shared.glsl)
 const uint k_unshared_load = 8u; // of those that have no share
 const uint k_body_words = 9u;
+
+inline uint count_new(uint new_edges) { return new_edges & ~k_new_on_ground; }
 
 inline uint body_word(uint body, uint word) { return k_body_words * body + word; }
 
@@ -164,7 +173,7 @@ const uint k_colours_for_first = 4u; // that those may take
 
 inline uint count_edges(uint used_low, uint used_high, uint new_edges)
 {
-    return uint(bitCount(used_low)) + uint(bitCount(used_high)) + new_edges;
+    return uint(bitCount(used_low)) + uint(bitCount(used_high)) + count_new(new_edges);
 }
 
 inline bool is_hub(uint edge_count, Parameters p) { return edge_count > p.hub_contacts; }
@@ -193,7 +202,7 @@ inline bool keeps_colour(uint colour, uint usable, bool both_movable, Parameters
     return usable <= (both_movable ? 0u : min(p.usable_colours, k_colours_for_first));
 }
 
-inline uint shares_of_hub(uint edge_count, uint hub_word) { return edge_count - (hub_word & ~k_is_hub); }
+inline uint shares_of_hub(uint new_edges, uint hub_word) { return count_new(new_edges) - (hub_word & ~k_is_hub); }
 
 inline uint largest_load_word(uint load) { return load + 1u; }
 inline uint largest_load(uint word) { return word - 1u; }

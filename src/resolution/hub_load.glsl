@@ -29,7 +29,7 @@ float load_on(uint pair, uint point_count)
 uint part_of_load(Manifold manifold, float load, uint hub)
 {
     float largest = uintBitsToFloat(largest_load(body_colours[body_word(hub, k_largest_load)]));
-    uint edge_count = body_colours[body_word(hub, k_new_edges)];
+    uint edge_count = count_new(body_colours[body_word(hub, k_new_edges)]);
     if (largest == 0.0) return part_by_gravity(manifold.normal, manifold.body_a == hub, edge_count, parameters);
     return part_of_load(load, largest, edge_count);
 }

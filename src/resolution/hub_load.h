@@ -27,7 +27,7 @@ inline float load_on(const CpuState& state, uint pair) {
 inline uint part_of_load(const CpuState& state, uint pair, float load, uint hub) {
     const Manifold& manifold = state.manifolds[pair];
     const float largest = uintBitsToFloat(largest_load(state.body_colours[body_word(hub, k_largest_load)]));
-    const uint edge_count = state.body_colours[body_word(hub, k_new_edges)];
+    const uint edge_count = count_new(state.body_colours[body_word(hub, k_new_edges)]);
     if (largest == 0.0f) return part_by_gravity(manifold.normal, manifold.body_a == hub, edge_count, state.parameters);
     return part_of_load(load, largest, edge_count);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
-// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes, and what has borrowed the ground's. One
-// that has kept a colour far down is listed too: assign_colours sees whether it needs that, and counts it.
+// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes. One that has kept a colour far down, or that
+// of the ground, is listed from the end: assign_colours sees whether it may, and counts it.
 // Also counts manifolds and contact points. Each group counts, and finds places in the list, for all of its own at once.
 // args.x: 1 where the graph is made of ListedPairs.
 // Reads: Manifolds, PointImpulses, Shapes; ListedPairs, and Islands of those.
@@ -34,8 +34,10 @@ shared uint manifold_count;
 shared uint contact_count;
 shared uint substep_demand;
 shared uint colour_demand;
-shared uint listed_count;
-shared uint first_listed; // of the group's, its place
+shared uint new_count;
+shared uint doubtful_count;
+shared uint first_new; // of the group's, its place
+shared uint first_doubtful;
 
 void use_colour(uint body, uint colour)
 {
@@ -43,9 +45,11 @@ void use_colour(uint body, uint colour)
     atomicOr(body_colours[body_word(body, used_word(colour))], used_bit(colour));
 }
 
-void want_colour(uint body)
+void want_colour(uint body, bool is_on_ground)
 {
-    if (is_movable(shapes[body])) atomicAdd(body_colours[body_word(body, k_new_edges)], 1u);
+    if (!is_movable(shapes[body])) return;
+    atomicAdd(body_colours[body_word(body, k_new_edges)], 1u);
+    if (is_on_ground) atomicOr(body_colours[body_word(body, k_new_edges)], k_new_on_ground);
 }
 
 // Between two sleepers, of which something awake touches one: its colour is in use, and it keeps it whatever that is.
@@ -67,18 +71,18 @@ uint keep_colour(uint pair)
         if (!sleeps) atomicMax(substep_demand, substeps_of(manifold.demand));
         colour = manifold.colour;
         bool both_movable = is_movable(shapes[manifold.body_a]) && is_movable(shapes[manifold.body_b]);
-        if (is_kept(colour, both_movable && !sleeps, parameters.usable_colours)) {
+        if (colour < parameters.usable_colours) {
             use_colour(manifold.body_a, colour);
             use_colour(manifold.body_b, colour);
-            if (!sleeps && is_far_down(colour))
+            if (!sleeps && (is_far_down(colour) || is_lent(colour, both_movable)))
                 listed = pair | k_has_kept;
             else if (!sleeps)
                 atomicMax(colour_demand, colours_down_to(colour));
         } else if (!sleeps) {
             colour = floatBitsToUint(load_on(pair, manifold.point_count));
             listed = pair;
-            want_colour(manifold.body_a);
-            want_colour(manifold.body_b);
+            want_colour(manifold.body_a, !both_movable);
+            want_colour(manifold.body_b, !both_movable);
         }
     }
     manifold_keys[pair] = colour;
@@ -93,17 +97,24 @@ void main()
         contact_count = 0u;
         substep_demand = 0u;
         colour_demand = 0u;
-        listed_count = 0u;
+        new_count = 0u;
+        doubtful_count = 0u;
     }
     barrier();
     uint entry = item_index();
     uint listed = k_none;
     if (entry < counters[k_counter_graph_pairs]) listed = keep_colour(args.x == 1u ? listed_pairs[entry] : entry);
-    uint place = listed != k_none ? atomicAdd(listed_count, 1u) : 0u;
+    bool is_doubtful = listed != k_none && (listed & k_has_kept) != 0u;
+    bool is_new = listed != k_none && !is_doubtful;
+    uint place = 0u;
+    if (is_new) place = atomicAdd(new_count, 1u);
+    if (is_doubtful) place = atomicAdd(doubtful_count, 1u);
     barrier();
-    if (is_first && listed_count > 0u) first_listed = atomicAdd(counters[k_counter_uncoloured], listed_count);
+    if (is_first && new_count > 0u) first_new = atomicAdd(counters[k_counter_uncoloured], new_count);
+    if (is_first && doubtful_count > 0u) first_doubtful = atomicAdd(counters[k_counter_doubtful], doubtful_count);
     barrier();
-    if (listed != k_none) uncoloured[first_listed + place] = listed;
+    if (is_new) uncoloured[first_new + place] = listed;
+    if (is_doubtful) uncoloured[counters[k_counter_graph_pairs] - 1u - (first_doubtful + place)] = listed;
     if (!is_first || manifold_count == 0u) return;
     atomicAdd(counters[k_counter_manifold_count], manifold_count);
     atomicAdd(counters[k_counter_contact_count], contact_count);

@@ -14,13 +14,16 @@ static void keep_colours_on_cpu(CpuState& state, const Launch& launch) {
         if (!is_movable(state.shapes[body])) return;
         state.body_colours[body_word(body, used_word(colour))] |= used_bit(colour);
     };
-    const auto want_colour = [&](uint body) {
-        if (is_movable(state.shapes[body])) ++state.body_colours[body_word(body, k_new_edges)];
+    const auto want_colour = [&](uint body, bool is_on_ground) {
+        if (!is_movable(state.shapes[body])) return;
+        uint& new_edges = state.body_colours[body_word(body, k_new_edges)];
+        new_edges = (new_edges + 1) | (is_on_ground ? k_new_on_ground : 0);
     };
     const auto is_between_sleepers = [&](const Manifold& manifold) {
         return is_listed && state.islands[manifold.body_a] == k_none && state.islands[manifold.body_b] == k_none;
     };
-    for (uint entry = 0; entry < state.counters[k_counter_graph_pairs]; ++entry) {
+    const uint pair_count = state.counters[k_counter_graph_pairs];
+    for (uint entry = 0; entry < pair_count; ++entry) {
         const uint pair = is_listed ? state.listed_pairs[entry] : entry;
         const Manifold& manifold = state.manifolds[pair];
         uint colour = k_inactive_colour;
@@ -33,19 +36,19 @@ static void keep_colours_on_cpu(CpuState& state, const Launch& launch) {
             colour = manifold.colour;
             const bool both_movable =
                 is_movable(state.shapes[manifold.body_a]) && is_movable(state.shapes[manifold.body_b]);
-            if (is_kept(colour, both_movable && !sleeps, state.parameters.usable_colours)) {
+            if (colour < state.parameters.usable_colours) {
                 use_colour(manifold.body_a, colour);
                 use_colour(manifold.body_b, colour);
                 uint& demand = state.counters[k_counter_colour_demand];
-                if (!sleeps && is_far_down(colour))
-                    state.uncoloured[state.counters[k_counter_uncoloured]++] = pair | k_has_kept;
+                if (!sleeps && (is_far_down(colour) || is_lent(colour, both_movable)))
+                    state.uncoloured[pair_count - ++state.counters[k_counter_doubtful]] = pair | k_has_kept;
                 else if (!sleeps)
                     demand = max(demand, colours_down_to(colour));
             } else if (!sleeps) {
                 colour = floatBitsToUint(load_on(state, pair));
                 state.uncoloured[state.counters[k_counter_uncoloured]++] = pair;
-                want_colour(manifold.body_a);
-                want_colour(manifold.body_b);
+                want_colour(manifold.body_a, !both_movable);
+                want_colour(manifold.body_b, !both_movable);
             }
         }
         manifold_keys[pair] = colour;

@@ -78,7 +78,7 @@ const uint k_counter_manifold_count = 3u; // pairs that touch; once colours are 
 const uint k_counter_contact_count = 4u;  // contact points
 const uint k_counter_colour_demand = 5u;  // colours from k_ground_colour down to the last that is in use
 const uint k_counter_overflow_count = 6u; // manifolds in the overflow set
-const uint k_counter_uncoloured = 7u;     // manifolds without a colour, or that may give theirs up
+const uint k_counter_uncoloured = 7u;     // manifolds without a colour
 const uint k_counter_did_not_fit = 8u;    // k_fit_* bits; sticky until the host has made room
 const uint k_counter_frozen_bodies = 9u;  // in all steps so far
 const uint k_counter_old_pair_count = 10u; // entries of OldManifolds
@@ -124,7 +124,9 @@ const uint k_counter_all_strays = 44u; // since the last search of all
 const uint k_counter_searched_tree = 45u; // 1 where strays of this step searched the tree
 const uint k_counter_low_islands = 46u; // multirate ones that launches solve, without a tall column
 const uint k_counter_ordered_pairs = 47u; // that the last constraint graph was made of
-const uint k_counter_words = 48u;
+const uint k_counter_doubtful = 48u; // manifolds that have kept a colour which they may give up
+const uint k_counter_given_up = 49u; // those that have
+const uint k_counter_words = 50u;
 
 // Bits of k_counter_did_not_fit
 const uint k_fit_pairs = 1u;
