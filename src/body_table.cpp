@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -157,6 +156,12 @@ void BodyTable::put(uint slot, const BodyDefinition& definition) {
     uses[slot] = Use::Present;
 }
 
+void BodyTable::count_body(uint slot, int sign) {
+    if (properties[slot].restitution > 0.0f) bouncing_count += sign;
+    if (kind_of(slot) == BodyKind::Kinematic) kinematic_count += sign;
+    present_count += sign;
+}
+
 BodyId BodyTable::add(const BodyDefinition& definition) {
     reserve(1);
     uint slot = take_free_slot();
@@ -165,9 +170,7 @@ BodyId BodyTable::add(const BodyDefinition& definition) {
         append_slots(1, 1);
     }
     put(slot, definition);
-    if (definition.material.restitution > 0.0f) ++bouncing_count;
-    if (definition.kind == BodyKind::Kinematic) ++kinematic_count;
-    ++present_count;
+    count_body(slot, 1);
     note_change(slot, k_dirty_all); // and no load; nor has a new body a contact that could last
     return id_of(slot);
 }
@@ -197,35 +200,26 @@ std::vector<BodyId> BodyTable::add(std::span<const BodyDefinition> definitions, 
     while (ids.size() < count)
         ids.push_back({next++, 0});
 
-    std::atomic<uint> bouncing = 0, kinematic = 0;
     in_parts(count, threads, k_many_bodies / 2, [&](std::size_t first, std::size_t end) {
-        uint part_bouncing = 0, part_kinematic = 0;
         for (std::size_t i = first; i < end; ++i) {
             const uint slot = ids[i].index;
             put(slot, definitions[i]);
             ids[i] = id_of(slot);
-            if (definitions[i].material.restitution > 0.0f) ++part_bouncing;
-            if (definitions[i].kind == BodyKind::Kinematic) ++part_kinematic;
         }
-        bouncing += part_bouncing;
-        kinematic += part_kinematic;
     });
-    bouncing_count += bouncing;
-    kinematic_count += kinematic;
-    present_count += count;
-    for (const BodyId id : ids)
+    for (const BodyId id : ids) {
+        count_body(id.index, 1);
         note_change(id.index, k_dirty_all);
+    }
     return ids;
 }
 
 void BodyTable::remove(BodyId id) {
     const uint slot = id.index;
-    if (properties[slot].restitution > 0.0f) --bouncing_count;
-    if (kind_of(slot) == BodyKind::Kinematic) --kinematic_count;
+    count_body(slot, -1);
     shapes[slot].type = k_kind_absent << 8;
     velocities[slot] = {};
     uses[slot] = Use::Resting;
-    --present_count;
     resting_slots.push_back(slot);
     mark(slot, k_dirty_shape | k_dirty_velocity);
     waking = std::max(waking, Waking::Disturbed);
@@ -302,10 +296,7 @@ std::string BodyTable::complete() {
         if (uses[slot] > Use::Resting || generations[slot] >= next_generations[slot] ||
             (is_present(slot) ? kind > k_kind_kinematic || shape > k_shape_sphere : kind != k_kind_absent))
             return "body " + std::to_string(slot) + " is of no known kind";
-        if (!is_present(slot)) continue;
-        ++present_count;
-        if (properties[slot].restitution > 0.0f) ++bouncing_count;
-        if (kind_of(slot) == BodyKind::Kinematic) ++kinematic_count;
+        if (is_present(slot)) count_body(slot, 1);
     }
     std::vector<Use> unlisted(uses);
     for (const uint slot : resting_slots) {

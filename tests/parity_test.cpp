@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One step from the same state on the CPU and on the GPU, compared buffer by buffer after every stage.
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -65,6 +66,18 @@ TEST(ParityOfMixedBodies, holds_for_spheres_spin_bounces_and_the_other_settings)
         settings.broad_phase = broad_phase;
         expect_parity(engine::compare_devices(bodies, settings, 40));
     }
+}
+
+TEST(ParityOfSleepers, holds_where_parts_of_a_heap_sleep) {
+    TALUS_SKIP_WITHOUT(DeviceKind::Gpu);
+    const char* const scene = "pile:boxes=1500";
+    Settings settings = scenes::make_scene(scene).settings;
+    settings.sleeping = true;
+    // 1,238 of them sleep then.
+    const ParityReport report = engine::compare_devices(bodies_of(scene), settings, 420);
+    expect_parity(report);
+    const auto is_list = [](const BufferParity& row) { return row.buffer == "ListedPairs"; };
+    EXPECT_TRUE(std::ranges::any_of(report.rows, is_list)) << "all are awake, or the last graph was this step's";
 }
 
 TEST(ParityOfMixedBodies, holds_for_sensors) {

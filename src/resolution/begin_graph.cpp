@@ -20,9 +20,10 @@ static void plan_launches(CpuState& state, bool due) {
 static void count_nothing(CpuState& state) {
     for (const uint counter :
          {k_counter_manifold_count, k_counter_contact_count, k_counter_colour_demand, k_counter_overflow_count,
-          k_counter_uncoloured, k_counter_doubtful, k_counter_given_up, k_counter_hub_count, k_counter_hub_manifolds, k_counter_launched_colours,
-          k_counter_launched_substeps, k_counter_launched_overflow, k_counter_sleeping_manifolds, k_counter_singles,
-          k_counter_multirate_islands, k_counter_low_islands, k_counter_largest_island})
+          k_counter_uncoloured, k_counter_doubtful, k_counter_given_up, k_counter_hub_count, k_counter_hub_manifolds,
+          k_counter_launched_colours, k_counter_launched_substeps, k_counter_launched_overflow,
+          k_counter_sleeping_manifolds, k_counter_singles, k_counter_multirate_islands, k_counter_low_islands,
+          k_counter_largest_island})
         state.counters[counter] = 0;
     state.counters[k_counter_substep_demand] = state.parameters.least_substeps;
 }

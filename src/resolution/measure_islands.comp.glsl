@@ -23,16 +23,7 @@ layout(std430) buffer IslandSizes { uint island_sizes[]; };
 layout(std430) buffer IslandStarts { uint island_starts[]; };
 layout(std430) buffer IslandFill { uint island_fill[]; };
 
-// Changes nothing on its way: others may have named the islands of what it passes.
-uint root_of(uint body)
-{
-    uint parent = islands[body];
-    while (parent != body) {
-        body = parent;
-        parent = islands[body];
-    }
-    return body;
-}
+#include "resolution/root_of.glsl"
 
 void stand_for_island(uint island, uint kept)
 {

@@ -10,11 +10,11 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer Counters { uint counters[]; };
 layout(std430) buffer Islands { uint islands[]; };
 
+#include "resolution/root_of.glsl"
+
 void main()
 {
     uint body = item_index();
     if (body >= counters[k_counter_graph_bodies] || islands[body] == k_none) return;
-    uint root = islands[body];
-    while (islands[root] != root) root = islands[root]; // roots stay what they are
-    islands[body] = root;
+    islands[body] = root_of(body); // roots stay what they are
 }
