@@ -115,7 +115,7 @@ private:
     uint take_free_slot();
     void append_slots(std::size_t count, uint threads);
     void put(uint slot, const BodyDefinition&);
-    /// Of the body in the slot, what a plan has to know: +1 where it has come, -1 where it is about to go.
+    /// Of the body in the slot: +1 where it has come, -1 where it is about to go.
     void count_body(uint slot, int sign);
     void drop_last_slot();
 

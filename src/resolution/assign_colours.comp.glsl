@@ -152,7 +152,7 @@ void look_at_doubtful(uint entry, uint end)
         uint place = counters[k_counter_uncoloured] + atomicAdd(counters[k_counter_given_up], 1u);
         if (place >= end) return;
         uncoloured[place] = pair | k_has_kept;
-    } else if (is_far_down(manifold.colour)) {
+    } else {
         raise_counter(k_counter_colour_demand, colours_down_to(manifold.colour));
     }
     uncoloured[entry] = k_none;
@@ -339,21 +339,21 @@ void main()
     if (counters[k_counter_graph_bodies] == 0u) return;
     uint new_count = counters[k_counter_uncoloured];
     uint first_doubtful = counters[k_counter_graph_pairs] - counters[k_counter_doubtful];
-    uint entry_count = new_count + counters[k_counter_doubtful];
-    meet_for(entry_count);
+    uint listed_count = new_count + counters[k_counter_doubtful];
+    meet_for(listed_count);
     if (gl_WorkGroupID.x >= group_count) return;
     uint first = gl_GlobalInvocationID.x;
     uint stride = group_count * gl_WorkGroupSize.x;
-    for (uint entry = first; entry < entry_count; entry += stride) {
+    for (uint entry = first; entry < listed_count; entry += stride) {
         if (entry < new_count)
             find_hubs(uncoloured[entry]);
         else
             look_at_doubtful(first_doubtful + entry - new_count, first_doubtful);
     }
     wait_for_workers();
-    entry_count = new_count + counters[k_counter_given_up];
+    uint entry_count = new_count + counters[k_counter_given_up];
     if (entry_count > first_doubtful) entry_count = counters[k_counter_graph_pairs]; // some are where they were
-    meet_for(entry_count);
+    meet_for(min(entry_count, listed_count)); // never more than have met
     if (gl_WorkGroupID.x >= group_count) return;
     stride = group_count * gl_WorkGroupSize.x;
     bool has_hubs = counters[k_counter_hub_count] > 0u;

@@ -78,8 +78,9 @@ inline bool is_far_down(uint colour) { return colours_down_to(colour) > k_many_c
 
 inline bool gives_up(uint colour, uint edges_a, uint edges_b) { return colours_down_to(colour) > max(edges_a, edges_b) + 1u; }
 
-// What has kept a colour that it may give up, one far down or the ground's, is doubtful until it is known what all bodies have: it is
-// listed from the end of the list of what has no colour. There stands, beside a pair: it has kept a colour, or has got one.
+// What has kept a colour that it may give up, one far down or lent by the ground, is doubtful until it is known which colours have been
+// kept, and what is new: it is listed from the end of the list of what has no colour. There stands, beside a pair: it has kept a colour,
+// or has got one.
 const uint k_has_kept = 0x80000000u;
 const uint k_has_got = 0x40000000u;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation is a pair: a manifold that had a colour in the last step keeps it (what is left of a valid colouring
-// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes. One that has kept a colour far down, or that
-// of the ground, is listed from the end: assign_colours sees whether it may, and counts it.
+// is valid), a new one is listed as uncoloured, and so is a hub's, as its load changes. One that has kept a colour far down, or was
+// lent the ground's, is listed from the end: assign_colours sees whether it may keep that, and counts it.
 // Also counts manifolds and contact points. Each group counts, and finds places in the list, for all of its own at once.
 // args.x: 1 where the graph is made of ListedPairs.
 // Reads: Manifolds, PointImpulses, Shapes; ListedPairs, and Islands of those.
