@@ -345,13 +345,13 @@ TEST_P(Colouring, a_contact_gives_up_a_colour_that_is_needed_no_longer) {
     EXPECT_LT(largest_speed(world), 0.01f);
 }
 
-/// The same with so many plates that contacts which give their colours up take several work groups: more than those
-/// that have been listed do.
+/// The same with so many plates that what gives its colour up has no room beside what has none, and is more than one
+/// work group has invocations for.
 TEST_P(Colouring, many_contacts_give_up_colours_that_are_needed_no_longer) {
-    constexpr std::uint32_t side = 15, plates = side * side;
+    constexpr uint side = 15, plates = side * side;
     std::vector<BodyDefinition> bodies{box_at({0.0f, -0.5f, 0.0f}, {10.0f * side, 1.0f, 10.0f * side})};
     bodies[0].kind = BodyKind::Static;
-    for (std::uint32_t plate = 0; plate < plates; ++plate) {
+    for (uint plate = 0; plate < plates; ++plate) {
         const std::vector<BodyDefinition> its_bodies = plate_of(5);
         const Vec3 place{10.0f * static_cast<float>(plate % side) - 70.0f, 0.0f,
                          10.0f * static_cast<float>(plate / side) - 70.0f};
@@ -360,23 +360,28 @@ TEST_P(Colouring, many_contacts_give_up_colours_that_are_needed_no_longer) {
             bodies.back().pose.position = its_bodies[i].pose.position + place;
         }
     }
-    World world = make_world();
-    const std::vector<BodyId> ids = world.add(bodies);
-    world.step(3);
-    ASSERT_EQ(world.report().hubs, 0u);
-    ASSERT_EQ(world.report().manifolds, 26u * plates);
-    ASSERT_GE(world.report().colours, 26u);
-    std::vector<Contact> contacts = world.contacts();
-    std::ranges::sort(contacts, std::greater{}, &Contact::colour);
-    std::map<std::uint32_t, std::uint32_t> removed; // of a plate
-    for (const Contact& contact : contacts) {
-        if (contact.a == ids[0] || removed[contact.a.index] == 21) continue;
-        world.remove(contact.b);
-        ++removed[contact.a.index];
-    }
-    world.step();
-    EXPECT_EQ(world.report().manifolds, 5u * plates);
-    EXPECT_EQ(world.report().colours, 5u);
+    EngineRun run(options_on(GetParam()), bodies);
+    run.step(3);
+    const Colours colours = colours_of(run);
+    ASSERT_EQ(colours.size(), 26u * plates);
+    std::map<uint, std::multimap<uint, uint>> boxes; // of each plate, by the colour of their contact, the lowest first
+    for (const auto& [pair, colour] : colours)
+        if (pair.first != 0) boxes[pair.first].insert({colour, pair.second});
+    for (const auto& [plate, its_boxes] : boxes)
+        for (auto box = std::next(its_boxes.begin(), 4); box != its_boxes.end(); ++box)
+            run.table.remove(run.table.id_of(box->second));
+    run.simulation.change_bodies(run.table.population(), run.table.take_changes(false));
+    run.simulation.search_anew(); // so that pairs of bodies that are gone are none
+    run.step();
+    ASSERT_EQ(run.counter(engine::k_counter_manifold_count), 5u * plates);
+    const uint pairs = run.counter(engine::k_counter_graph_pairs), doubtful = run.counter(engine::k_counter_doubtful);
+    EXPECT_EQ(doubtful, 4u * plates);
+    EXPECT_EQ(run.counter(engine::k_counter_given_up), doubtful);
+    EXPECT_LT(doubtful, 1024u) << "one group looks at them";
+    EXPECT_GT(pairs, 1024u) << "and two would have part of the list";
+    EXPECT_LT(pairs, 2u * doubtful) << "there is no room for them beside those that are new";
+    EXPECT_EQ(run.counter(engine::k_counter_colour_demand), 5u);
+    expect_valid(run);
 }
 
 TEST_P(Colouring, in_sequential_order_there_are_no_colours) {
