@@ -55,6 +55,6 @@ static void keep_colours_on_cpu(CpuState& state, const Launch& launch) {
     }
 }
 
-const Kernel keep_colours{"resolution/keep_colours", keep_colours_on_cpu};
+const Kernel keep_colours{"resolution/keep_colours", keep_colours_on_cpu, k_count_group};
 
 } // namespace talus::engine
