@@ -127,8 +127,8 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     cpu.set_parameters(parameters);
     gpu->set_parameters(parameters);
 
-    StepPlan in_parts = plan; // with the same results
-    in_parts.joined_twice = 0;
+    StepPlan with_two_joins = plan; // of the same result
+    with_two_joins.joined_twice = 0;
 
     simulation.search_anew();
     ParityReport report;
@@ -136,7 +136,7 @@ ParityReport compare_devices(const std::vector<BodyDefinition>& definitions, con
     give_content(*gpu, before);
     for (const Stage stage : k_stages) {
         run_stage(cpu, stage, plan);
-        run_stage(*gpu, stage, in_parts);
+        run_stage(*gpu, stage, with_two_joins);
         Content on_cpu = content_of(cpu);
         const Content on_gpu = content_of(*gpu);
         for (std::size_t i = 0; i < k_buffers.size(); ++i) {

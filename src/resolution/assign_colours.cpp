@@ -21,39 +21,38 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
     uint& colour_demand = state.counters[k_counter_colour_demand];
     const auto word_of = [&](uint body, uint word) -> uint& { return state.body_colours[body_word(body, word)]; };
     const auto movable = [&](uint body) { return is_movable(state.shapes[body]); };
+    const auto are_movable = [&](const Manifold& manifold) {
+        return movable(manifold.body_a) && movable(manifold.body_b);
+    };
     const auto edges_of = [&](uint body) {
         return count_edges(word_of(body, k_used_low), word_of(body, k_used_high), word_of(body, k_new_edges));
     };
     const auto is_sleeper = [&](uint body) { return launch.args[1] == 1 && state.substeps[body] == 0; };
     const auto makes_hub = [&](uint body) { return is_hub(edges_of(body), state.parameters) && !is_sleeper(body); };
-    const auto keeps_colour_after_all = [&](const Manifold& manifold, bool both_movable) {
+    const auto keeps_colour_after_all = [&](const Manifold& manifold) {
         const uint a = manifold.body_a, b = manifold.body_b;
         if (makes_hub(a) || makes_hub(b)) return true;
-        if (is_lent(manifold.colour, both_movable))
+        if (is_lent(manifold.colour, are_movable(manifold)))
             return !gives_back(word_of(a, k_used_high) | word_of(b, k_used_high), word_of(a, k_new_edges),
                                word_of(b, k_new_edges));
         return !gives_up(manifold.colour, edges_of(a), edges_of(b));
     };
     std::vector<Edge> edges;
     std::vector<uint> given_up;
-    const auto list_edge = [&](uint pair, bool both_movable) {
+    const auto list_edge = [&](uint pair) {
         const Manifold& manifold = state.manifolds[pair];
-        edges.push_back({edge_rank(manifold.body_a, manifold.body_b, both_movable), pair});
-    };
-    const auto are_movable = [&](const Manifold& manifold) {
-        return movable(manifold.body_a) && movable(manifold.body_b);
+        edges.push_back({edge_rank(manifold.body_a, manifold.body_b, are_movable(manifold)), pair});
     };
     for (uint i = 0; i < state.counters[k_counter_uncoloured]; ++i)
-        list_edge(state.uncoloured[i], are_movable(state.manifolds[state.uncoloured[i]]));
+        list_edge(state.uncoloured[i]);
     const uint pair_count = state.counters[k_counter_graph_pairs];
     for (uint i = pair_count - state.counters[k_counter_doubtful]; i < pair_count; ++i) {
         const uint pair = state.uncoloured[i] & ~k_has_kept;
         const Manifold& manifold = state.manifolds[pair];
-        const bool both_movable = are_movable(manifold);
-        if (keeps_colour_after_all(manifold, both_movable)) {
+        if (keeps_colour_after_all(manifold)) {
             colour_demand = max(colour_demand, colours_down_to(manifold.colour));
         } else {
-            list_edge(pair, both_movable);
+            list_edge(pair);
             given_up.push_back(pair);
         }
     }
@@ -98,7 +97,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
     const auto give_colour = [&](const Edge& edge) {
         const Manifold& manifold = state.manifolds[edge.pair];
         const std::array bodies{manifold.body_a, manifold.body_b};
-        const bool both_movable = std::ranges::all_of(bodies, movable);
+        const bool both_movable = are_movable(manifold);
         const auto hub_count = hub_count_of(manifold);
         const uint hub = hub_of(manifold),
                    part = hub_count == 1
@@ -144,8 +143,7 @@ static void assign_colours_on_cpu(CpuState& state, const Launch& launch) {
             const Manifold& manifold = state.manifolds[edge.pair];
             const uint colour = manifold_keys[edge.pair];
             if (colour >= k_first_hub_colour) continue;
-            const bool both_movable = movable(manifold.body_a) && movable(manifold.body_b);
-            again.push_back({by_class ? class_rank(colour, both_movable) : edge.rank, edge.pair});
+            again.push_back({by_class ? class_rank(colour, are_movable(manifold)) : edge.rank, edge.pair});
             for (const uint body : {manifold.body_a, manifold.body_b})
                 word_of(body, used_word(colour)) &= ~used_bit(colour);
         }
